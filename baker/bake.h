@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// The whole pipeline: Scene -> Atlas -> texels -> irradiance -> visibility map.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "baker/gather/gather.h"
+#include "baker/post/fill.h"
+#include "baker/texel/texels.h"
+#include "baker/unwrap/unwrap.h"
+#include "runtime/base/parallel.h"
+#include "runtime/map/visibility_map.h"
+#include "runtime/scene/scene.h"
+
+namespace surimi {
+
+struct BakeSettings {
+    UnwrapSettings unwrap;
+    GatherSettings gather;
+};
+
+/// What one stage cost.
+struct StageCost {
+    std::string stage;
+    double seconds = 0;
+    size_t rays = 0;
+    size_t peak_bytes = 0;  ///< resident set of the process at its highest so far
+};
+
+struct Bake {
+    Atlas atlas;
+    VisibilityMap map;
+    std::array<Image<TexelState>, 3> state;     ///< by channel; empty where there is no monitor
+    std::array<Image<IrradianceEstimate>, 3> irradiance;  ///< by channel; the evidence behind the map
+    std::vector<StageCost> costs;
+    std::vector<std::string> warnings;
+};
+
+/// Bakes scene.monitors into one map. The result depends on scene and settings alone, not on the number of threads.
+/// Throws what its stages throw, and Error(interrupted).
+Bake bake(const Scene& scene, const BakeSettings& settings, const Progress& progress);
+
+}  // namespace surimi

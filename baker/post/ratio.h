@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// Irradiance estimates -> visibility of one channel.
+#pragma once
+
+#include <vector>
+
+#include "baker/gather/gather.h"
+#include "baker/post/fill.h"
+
+namespace surimi {
+
+struct Channel {
+    Image<float> visibility;  ///< [0, 1]; 1 where not covered
+    Image<TexelState> state;
+};
+
+/// V = S / E (M3) where E > 0; other texels are unlit, those without a surface empty.
+Channel visibility_channel(const Texels& texels, const std::vector<IrradianceEstimate>& estimates);
+
+}  // namespace surimi

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scene -> Atlas.
+#pragma once
+
+#include "baker/unwrap/atlas.h"
+#include "runtime/base/parallel.h"
+#include "runtime/scene/scene.h"
+
+namespace surimi {
+
+enum class UvSource {
+    unwrap,    ///< make new charts
+    existing,  ///< take TEXCOORD_1 as it is, after checking it
+};
+
+struct UnwrapSettings {
+    UvSource uv = UvSource::unwrap;
+    int width = 1024;            ///< texels; ignored with a density
+    int height = 1024;
+    double texels_per_metre = 0;  ///< 0: follows from the size. Otherwise the size follows (a multiple of 4, at most
+                                  ///< 16384), and `width`, `height` are not used
+    int gutter = 2;               ///< at least 1
+};
+
+/// Cuts every surface into charts without flips or overlaps, at one density, and packs them into exactly the size
+/// asked for. Deterministic. Adds nothing to the scene and drops nothing with area.
+/// Throws Error(nothing_to_bake) when the scene has no triangle, Error(usage) when the charts cannot fit even at the
+/// lowest density (it names the smallest size that can), Error(scene) when existing UVs are unfit (missing, out of
+/// [0, 1], overlapping, not finite): the message names surface and triangles.
+Atlas unwrap(const Scene& scene, const UnwrapSettings& settings, const Progress& progress);
+
+}  // namespace surimi

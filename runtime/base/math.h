@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// GLM under the names that Surimi uses. Geometry is double; what is stored in files and images is float.
+#pragma once
+
+#include <cmath>
+
+#include <glm/glm.hpp>
+
+namespace surimi {
+
+using Vec2 = glm::dvec2;
+using Vec3 = glm::dvec3;
+using Vec4 = glm::dvec4;
+using Mat3 = glm::dmat3;
+using Mat4 = glm::dmat4;
+using Vec2f = glm::vec2;
+using Vec3f = glm::vec3;
+using Vec4f = glm::vec4;
+
+inline constexpr double pi = 3.14159265358979323846;
+
+/// `v` scaled to length 1, or `fallback` where `v` is zero or not finite. The scale by the largest component keeps
+/// lengths from 1e-300 to 1e300 from under- or overflowing when squared.
+inline Vec3 normalize_or(const Vec3& v, const Vec3& fallback) {
+    const double scale = std::max(std::abs(v.x), std::max(std::abs(v.y), std::abs(v.z)));
+    if (!(scale > 0) || !std::isfinite(scale)) return fallback;
+    const Vec3 scaled = v / scale;
+    return scaled / glm::length(scaled);
+}
+
+inline bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+/// Twice the area times the unit normal of the triangle a, b, c (counter-clockwise seen from its front).
+inline Vec3 area_normal(const Vec3& a, const Vec3& b, const Vec3& c) { return glm::cross(b - a, c - a); }
+
+}  // namespace surimi

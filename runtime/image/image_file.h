@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Image files: decode, read, write. The only room that sees OpenImageIO.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "runtime/base/image.h"
+#include "runtime/base/math.h"
+
+namespace surimi {
+
+/// Decodes a PNG, JPEG or other encoded image from memory to 8-bit RGBA, un-premultiplied, as stored (no colour
+/// conversion). `name` (with an extension that tells the format, such as "x.png") is used in the error.
+/// Throws Error(scene) when the bytes are no image or are larger than 16384 x 16384.
+Image<glm::u8vec4> decode_image(std::span<const uint8_t> bytes, const std::string& name);
+
+/// Named float channels of one size: what an EXR holds. `values` is interleaved, top row first.
+struct Channels {
+    int width = 0;
+    int height = 0;
+    std::vector<std::string> names;
+    std::vector<float> values;  ///< width * height * names.size()
+};
+
+enum class ExrDepth { half, full };
+
+/// Reads all channels of an image file, linear, as float. Throws Error(scene).
+Channels read_channels(const std::filesystem::path& path);
+
+/// Writes an EXR (ZIP). The bytes depend on the arguments alone. Throws Error(cannot_write).
+void write_exr(const std::filesystem::path& path, const Channels& channels, ExrDepth depth);
+
+/// Encodes 8-bit RGB as a PNG in memory / in a file; the bytes depend on the pixels alone.
+std::vector<uint8_t> encode_png(const Image<glm::u8vec3>& image);
+void write_png(const std::filesystem::path& path, const Image<glm::u8vec3>& image);
+
+/// sRGB transfer function (IEC 61966-2-1) and its inverse; both clamp to [0, 1]; NaN becomes 0.
+double srgb_from_linear(double linear);
+double linear_from_srgb(double encoded);
+/// Nearest 8-bit sRGB code of a linear colour.
+glm::u8vec3 srgb8(const Vec3& linear);
+
+}  // namespace surimi
