@@ -7,14 +7,9 @@
 #include <vector>
 
 #include "baker/unwrap/atlas.h"
-#include "runtime/scene/scene.h"
+#include "runtime/scene/surface_point.h"
 
 namespace surimi {
-
-struct TriangleRef {
-    uint32_t surface = 0;
-    uint32_t triangle = 0;
-};
 
 /// One texel that at least one triangle touches.
 struct Texel {
@@ -41,43 +36,37 @@ struct Texels {
 /// (existing UVs only), the chart of the lower number owns it.
 Texels find_texels(const Scene& scene, const Atlas& atlas);
 
-/// A piece of surface under one texel, as a convex polygon on the lightmap: triangle clipped by the texel's square.
-struct Fragment {
-    TriangleRef triangle;
-    std::vector<Vec2> corners;  ///< texel units relative to the texel's upper left corner, in [0, 1]^2
-    double area = 0;            ///< on the surface, m^2
-};
-
-/// A place on a surface.
-struct SurfacePoint {
-    Vec3 position{0};
-    Vec3 normal{0, 0, 1};            ///< unit, interpolated
-    Vec3 geometric_normal{0, 0, 1};  ///< unit, of the triangle
-};
-
 /// The surface under one texel, ready to be sampled evenly by area.
 class TexelSurface {
   public:
     TexelSurface(const Scene& scene, const Atlas& atlas, const Texels& texels, const Texel& texel);
 
-    /// The point for (u, v) in [0, 1)^2; evenly spread over the surface's area when (u, v) are. Always on a triangle.
+    /// The point for (u, v) in [0, 1)^2; evenly spread over the surface's area when (u, v) are (M8). Always on a triangle.
     SurfacePoint sample(double u, double v) const;
 
     /// m^2 of surface under the texel; 0 for a texel that is only touched.
     double area() const { return area_; }
 
   private:
-    struct Piece {             // a triangle or parallelogram of points that are affine in (u, v)
-        double cumulative = 0;  // area of this and all earlier pieces
-        bool is_parallelogram = false;
-        Vec2 origin{0}, edge_u{0}, edge_v{0};  // texel units, absolute
-        TriangleRef triangle;
+    /// A value that is affine in (u, v).
+    struct Affine {
+        Vec3 origin{0}, edge_u{0}, edge_v{0};
+        Vec3 at(double u, double v) const { return origin + u * edge_u + v * edge_v; }
     };
-    SurfacePoint point(const TriangleRef& triangle, const Vec2& texel_position) const;
+    struct Piece {  // a triangle or the whole texel square
+        double cumulative = 0;  // area of this and all earlier pieces
+        bool is_square = false;
+        TriangleRef triangle;
+        Vec3 geometric_normal{0, 0, 1};
+        Affine barycentric, position, normal;
+    };
+    void add(const TriangleRef& triangle, const Vec2& corner);
+    void add_piece(const TriangleRef& triangle, double area, bool is_square, const Affine& barycentric);
 
     const Scene& scene_;
     const Atlas& atlas_;
     std::vector<Piece> pieces_;
+    double total_ = 0;  // of the pieces' weights: their areas, unless all of those are 0
     double area_ = 0;
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which parts of a scene are monitors: the rules of the product, in their order; the first that yields one wins.
+// Which parts of a scene are monitors: the rules of the product, in their order; the first that yields one
+// wins.
 #pragma once
 
 #include <optional>
@@ -30,18 +31,19 @@ struct MonitorRectangles {
 };
 
 struct MonitorRequest {
-    std::vector<MonitorSelector> command_line;     ///< rule 1
-    std::vector<MonitorSelector> config_nodes;     ///< rule 2
+    std::vector<MonitorSelector> command_line;         ///< rule 1
+    std::vector<MonitorSelector> config_nodes;         ///< rule 2
     std::vector<MonitorRectangles> config_rectangles;  ///< rule 2
 };
 
 /// "TV=G" -> {TV, 1}; "TV" -> {TV, none}. Throws Error(usage) for another channel than R, G, B.
 MonitorSelector parse_monitor_selector(const std::string& text);
 
-/// Fills scene.monitors (one to three, sorted by channel) and Surface::monitor, and adds notes (a candidate that was
-/// rejected and why; a monitor that faces a wall closer than its own height is judged later, with rays).
-/// Throws Error(nothing_to_bake) when there is none, more than three, or two claim a channel: the message lists every
-/// candidate with its flux and the --monitor line to paste. Throws Error(usage) when a name matches nothing.
+/// Fills scene.monitors (one to three, sorted by channel) and Surface::monitor, and adds notes (a candidate
+/// that was rejected and why; a monitor that faces a wall closer than its own height is judged later, with
+/// rays). Throws Error(nothing_to_bake) when there is none, more than three, or two claim a channel: the
+/// message lists every candidate with its flux and the --monitor line to paste. Throws Error(usage) when a
+/// name matches nothing.
 void find_monitors(Scene& scene, const MonitorRequest& request);
 
 }  // namespace surimi

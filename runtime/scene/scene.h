@@ -61,6 +61,8 @@ struct Node {
     int monitor_channel = -1;
     bool is_two_sided_monitor = false;
     Vec2 monitor_size{0};   ///< extras.monitor_size: an empty node that is a monitor of this width and height, facing its +z
+    Vec2 area_light_size{0};      ///< EXT_lights_area rectangle: width and height before the node's scale, facing its -z
+    Vec3 area_light_radiance{0};  ///< of that light: linear RGB, nits
 };
 
 /// One primitive of one mesh as one node places it: triangles in world space. Every placement is its own receiver.
@@ -107,6 +109,8 @@ struct Scene {
 
 /// Adds `count` to the note with this text, or makes one that remembers `where`.
 void add_note(Scene& scene, const std::string& what, const std::string& where, size_t count = 1);
+
+void add_note(std::vector<Note>& notes, const std::string& what, const std::string& where, size_t count = 1);
 
 size_t triangle_count(const Scene& scene);
 

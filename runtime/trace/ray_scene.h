@@ -6,22 +6,18 @@
 #include <memory>
 #include <optional>
 
-#include "runtime/scene/scene.h"
+#include "runtime/scene/surface_point.h"
 
 namespace surimi {
 
 struct Hit {
-    uint32_t surface = 0;
-    uint32_t triangle = 0;
-    Vec2 barycentric{0};  ///< weights of corners 1 and 2
-    double distance = 0;  ///< metres
+    TriangleRef triangle;  ///< surface == Scene::surfaces.size() + m: a panel of monitor m, which has no surface
+    Vec3 barycentric{1, 0, 0};
+    double distance = 0;   ///< in lengths of the ray's direction
+    bool is_front = true;  ///< the side that the triangle's winding shows
 };
 
-/// A point pushed off its surface far enough that no ray from it meets that surface again, and no farther: the
-/// distance covers the rounding of both to float, which grows with the position's magnitude. (M8)
-Vec3 offset_origin(const Vec3& position, const Vec3& geometric_normal, double magnitude);
-
-/// Owns the acceleration structure of one scene; the scene must outlive it.
+/// Owns the acceleration structure of one scene; the scene must outlive it. Calls are thread-safe.
 class RayScene {
   public:
     explicit RayScene(const Scene& scene);
@@ -29,12 +25,16 @@ class RayScene {
     RayScene(const RayScene&) = delete;
     RayScene& operator=(const RayScene&) = delete;
 
-    /// Is anything between a surface point and a point on monitor `monitor`? The monitor's own surfaces do not count,
-    /// nor does whatever lies within 1e-4 of the distance before the target. `from` is the surface point itself; it is
-    /// offset here.
-    bool is_occluded(const Vec3& from, const Vec3& geometric_normal, const Vec3& to, int monitor) const;
+    /// Where rays from the front of `point` start: far enough off its triangle that none of them meets it again, and no
+    /// farther (M5). The distance covers the rounding of vertices and origin to float, relative to the scene's centre.
+    Vec3 ray_origin(const SurfacePoint& point) const;
 
-    /// Nearest surface along a ray, alpha-masked holes left out. `direction` need not be unit.
+    /// Is anything between `origin` (see ray_origin) and `target`, a point on monitor `monitor`? Surfaces of that
+    /// monitor do not count, nor does what lies within 1e-4 of the distance before the target. Alpha-masked holes let
+    /// light through; blended and transmissive materials block it.
+    bool is_occluded(const Vec3& origin, const Vec3& target, size_t monitor) const;
+
+    /// Nearest surface along a ray; alpha-masked holes are not hit.
     std::optional<Hit> closest_hit(const Vec3& origin, const Vec3& direction) const;
 
   private:

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <memory>
+
+#include "baker/cli/commands.h"
+#include "baker/cli/options.h"
+#include "baker/cli/progress.h"
+#include "baker/write/output.h"
+#include "runtime/base/error.h"
+
+namespace surimi {
+namespace {
+
+size_t count(const Image<TexelState>& state, TexelState which) {
+    return static_cast<size_t>(std::count(state.pixels.begin(), state.pixels.end(), which));
+}
+
+/// What a person wants to know when it is done.
+void print_summary(const Scene& scene, const Bake& bake) {
+    double seconds = 0;
+    size_t rays = 0;
+    for (const StageCost& cost : bake.costs) seconds += cost.seconds, rays += cost.rays;
+    fmt::print(stderr, "{} x {} texels, {} charts at {:.4g} texels per metre; {:.1f} s, {:.1f} M rays, {:.0f} MiB\n",
+               bake.atlas.width, bake.atlas.height, bake.atlas.charts.size(), bake.atlas.texels_per_metre, seconds,
+               static_cast<double>(rays) / 1e6, static_cast<double>(bake.costs.back().peak_bytes) / 1048576);
+    for (const Monitor& monitor : scene.monitors) {
+        const Image<TexelState>& state = bake.state[static_cast<size_t>(monitor.channel)];
+        fmt::print(stderr, "{} {}: {} texels measured, {} unlit, {} filled, {} empty\n", "RGB"[monitor.channel],
+                   monitor.name, count(state, TexelState::covered), count(state, TexelState::unlit),
+                   count(state, TexelState::filled), count(state, TexelState::empty));
+    }
+    for (const DensityCap& cap : bake.atlas.caps)
+        fmt::print(stderr, "note: {} has {:.3g} of the density: {}\n", scene.surfaces[cap.surface].name, cap.factor, cap.reason);
+    for (const std::string& warning : bake.warnings) fmt::print(stderr, "warning: {}\n", warning);
+}
+
+int bake_scene(const Given& given, const std::filesystem::path& out) {
+    const Config config = effective_config(given);
+    if (given.print_config) {
+        fmt::print("{}", to_toml(config));
+        return 0;
+    }
+    set_thread_count(config.threads);
+    const Scene scene = load_scene(given, config);
+    const Bake result = bake(scene, config.bake, make_progress(given.progress, given.quiet));
+    const OutputPaths paths = write_bake(out, scene, result, settings_json(config));
+    if (!given.quiet) print_summary(scene, result);
+    if (given.json) {
+        std::ifstream manifest(paths.manifest_json);
+        fmt::print("{}", std::string(std::istreambuf_iterator<char>(manifest), {}));
+    } else {
+        for (const auto& path : {paths.visibility_exr, paths.visibility_png, paths.lightmaps_exr, paths.baked_glb,
+                                 paths.manifest_json})
+            fmt::print("{}\n", path.string());
+    }
+    return 0;
+}
+
+}  // namespace
+
+Run add_bake_command(CLI::App& app) {
+    const auto given = std::make_shared<Given>();
+    const auto out = std::make_shared<std::filesystem::path>("out");
+    CLI::App* command = app.add_subcommand("bake", "Bake the visibility map of a scene's monitors");
+    add_scene_options(*command, *given);
+    add_unwrap_options(*command, *given);
+    add_gather_options(*command, *given);
+    command->add_option("-o,--output", *out, "Folder to write to [out]")->type_name("FOLDER");
+    return [given, out] { return bake_scene(*given, *out); };
+}
+
+}  // namespace surimi

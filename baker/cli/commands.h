@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// The subcommands: each declares its options and says what to run when it is chosen.
+#pragma once
+
+#include <functional>
+
+namespace CLI {
+class App;
+}
+
+namespace surimi {
+
+/// Runs a chosen subcommand and returns the exit code; throws Error.
+using Run = std::function<int()>;
+
+Run add_inspect_command(CLI::App& app);
+Run add_unwrap_command(CLI::App& app);
+Run add_bake_command(CLI::App& app);
+Run add_preview_command(CLI::App& app);
+
+}  // namespace surimi

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "baker/cli/options.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "baker/cli/config_file.h"
+#include "runtime/base/error.h"
+#include "runtime/scene/gltf.h"
+
+namespace surimi {
+
+void add_scene_options(CLI::App& app, Given& given) {
+    app.add_option("scene", given.scene, "Scene, .gltf or .glb")->required()->type_name("SCENE");
+    app.add_option("--monitor", given.monitors,
+                   "Node that is a monitor, with its channel if it matters; repeatable, * and ? match")
+        ->type_name("NODE[=R|G|B]")
+        ->expected(1)
+        ->take_all();
+    app.add_option("--config", given.config, "Settings file; default: SCENE's name with .surimi.toml, if it exists")
+        ->type_name("FILE")
+        ->envname("SURIMI_CONFIG");
+    app.add_option("--threads", given.threads, "Threads to use; 0: all cores [0]")->type_name("N")->envname("SURIMI_THREADS");
+    app.add_option("--progress", given.progress, "auto, bar, lines, json or none [auto]")
+        ->type_name("STYLE")
+        ->check(CLI::IsMember({"auto", "bar", "lines", "json", "none"}));
+    app.add_flag("--quiet", given.quiet, "No messages and no progress; errors only");
+    app.add_flag("--json", given.json, "The result as JSON on stdout");
+}
+
+void add_unwrap_options(CLI::App& app, Given& given) {
+    app.add_option("--uv", given.uv, "unwrap: new charts; existing: TEXCOORD_1 as it is [unwrap]")
+        ->type_name("SOURCE")
+        ->envname("SURIMI_UV");
+    auto* size = app.add_option("--size", given.size, "Size of the map in texels, 16 to 16384; density follows [1024]")
+                     ->type_name("W [H]")
+                     ->expected(1, 2)
+                     ->envname("SURIMI_SIZE");
+    app.add_option("--density", given.density, "Texels per metre; the size follows")
+        ->type_name("D")
+        ->excludes(size)
+        ->envname("SURIMI_DENSITY");
+    app.add_option("--gutter", given.gutter, "Empty texels between two charts, 1 to 64 [2]")
+        ->type_name("N")
+        ->envname("SURIMI_GUTTER");
+    app.add_flag("--print-config", given.print_config, "Print the settings in effect as TOML and stop");
+}
+
+void add_gather_options(CLI::App& app, Given& given) {
+    app.add_option("--samples", given.samples, "Rays for each texel and monitor, 1 to 1048576 [256]")
+        ->type_name("N")
+        ->envname("SURIMI_SAMPLES");
+    app.add_option("--seed", given.seed, "Seed of the random numbers [0]")->type_name("N")->envname("SURIMI_SEED");
+}
+
+Config effective_config(const Given& given) {
+    Config config;
+    std::filesystem::path file = given.config;
+    const auto beside = std::filesystem::path(given.scene).replace_extension(".surimi.toml");
+    std::error_code ignored;
+    if (file.empty() && std::filesystem::exists(beside, ignored)) file = beside;
+    if (!file.empty()) read_config_file(file, config);
+
+    UnwrapSettings& unwrap = config.bake.unwrap;
+    if (given.uv) unwrap.uv = parse_uv_source(*given.uv, "--uv");
+    if (!given.size.empty()) {
+        unwrap.width = given.size.front();
+        unwrap.height = given.size.back();
+        unwrap.texels_per_metre = 0;
+    }
+    if (given.density) {
+        unwrap.texels_per_metre = *given.density;
+        if (!(*given.density > 0)) throw Error(ErrorKind::usage, "--density must be greater than 0");
+    }
+    if (given.gutter) unwrap.gutter = *given.gutter;
+    if (given.samples) config.bake.gather.samples = *given.samples;
+    if (given.seed) config.bake.gather.seed = *given.seed;
+    if (given.threads) config.threads = *given.threads;
+    for (const std::string& text : given.monitors) config.monitors.command_line.push_back(parse_monitor_selector(text));
+    check_ranges(config, "command line");
+    return config;
+}
+
+namespace {
+
+std::string quoted(const std::string& text) { return nlohmann::json(text).dump(); }  // JSON strings are TOML strings
+
+std::string channel_line(const std::optional<int>& channel) {
+    return channel ? fmt::format("channel = \"{}\"\n", "RGB"[*channel]) : "";
+}
+
+std::string triple(const Vec3& v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); }
+
+}  // namespace
+
+std::string to_toml(const Config& config) {
+    const UnwrapSettings& unwrap = config.bake.unwrap;
+    std::string text;
+    text += fmt::format("uv = \"{}\"            # unwrap, existing\n", name_of(unwrap.uv));
+    if (unwrap.texels_per_metre > 0)
+        text += fmt::format("density = {}          # texels per metre; the size follows\n", unwrap.texels_per_metre);
+    else
+        text += fmt::format("size = [{}, {}]   # texels; the density follows\n", unwrap.width, unwrap.height);
+    text += fmt::format("gutter = {}               # texels between charts\n", unwrap.gutter);
+    text += fmt::format("samples = {}            # rays for each texel and monitor\n", config.bake.gather.samples);
+    text += fmt::format("seed = {}\n", config.bake.gather.seed);
+    text += fmt::format("threads = {}              # 0: all cores\n", config.threads);
+    const bool from_command_line = !config.monitors.command_line.empty();
+    for (const auto& m : from_command_line ? config.monitors.command_line : config.monitors.config_nodes)
+        text += fmt::format("\n[[monitor]]\nnode = {}\n{}", quoted(m.node), channel_line(m.channel));
+    if (from_command_line) return text;
+    for (const auto& m : config.monitors.config_rectangles) {
+        text += fmt::format("\n[[monitor]]\nname = {}\n{}radiance = {}\nrectangles = [\n", quoted(m.name),
+                            channel_line(m.channel), triple(m.radiance));
+        for (const auto& r : m.rectangles)
+            text += fmt::format("  {{ center = {}, half_u = {}, half_v = {} }},\n", triple(r.center), triple(r.half_u),
+                                triple(r.half_v));
+        text += "]\n";
+    }
+    return text;
+}
+
+std::string settings_json(const Config& config) {
+    const UnwrapSettings& unwrap = config.bake.unwrap;
+    nlohmann::ordered_json json;
+    json["uv"] = name_of(unwrap.uv);
+    if (unwrap.texels_per_metre > 0)
+        json["density"] = unwrap.texels_per_metre;
+    else
+        json["size"] = {unwrap.width, unwrap.height};
+    json["gutter"] = unwrap.gutter;
+    json["samples"] = config.bake.gather.samples;
+    json["seed"] = config.bake.gather.seed;
+    return json.dump();
+}
+
+void print_notes(const Scene& scene) {
+    for (const Note& note : scene.notes)
+        fmt::print(stderr, "note: {}{}{}\n", note.what, note.count > 1 ? fmt::format(" ({} times)", note.count) : "",
+                   note.where.empty() ? "" : fmt::format(", first at {}", note.where));
+}
+
+Scene load_scene(const Given& given, const Config& config) {
+    Scene scene = read_gltf(given.scene);
+    find_monitors(scene, config.monitors);
+    if (!given.quiet) print_notes(scene);
+    return scene;
+}
+
+}  // namespace surimi

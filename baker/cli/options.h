@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// Options that several subcommands share, and what they come to together with the configuration file.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "baker/bake.h"
+#include "runtime/scene/monitors.h"
+
+namespace CLI {
+class App;
+}
+
+namespace surimi {
+
+/// What stands on the command line or in the environment; empty: not given.
+struct Given {
+    std::filesystem::path scene;
+    std::vector<std::string> monitors;
+    std::string config;
+    std::optional<std::string> uv;
+    std::vector<int> size;
+    std::optional<double> density;
+    std::optional<int> gutter;
+    std::optional<int> samples;
+    std::optional<uint64_t> seed;
+    std::optional<int> threads;
+    std::string progress = "auto";
+    bool quiet = false;
+    bool json = false;
+    bool print_config = false;
+};
+
+/// The settings in effect: command line over environment over file over default.
+struct Config {
+    MonitorRequest monitors;
+    BakeSettings bake;
+    int threads = 0;  ///< 0: all cores
+};
+
+void add_scene_options(CLI::App& app, Given& given);   ///< SCENE, --monitor, --config, --threads, --quiet, --progress
+void add_unwrap_options(CLI::App& app, Given& given);  ///< --uv, --size, --density, --gutter
+void add_gather_options(CLI::App& app, Given& given);  ///< --samples, --seed
+
+/// Merges the configuration file (given.config, else NAME.surimi.toml beside the scene, if there) and what is given.
+/// Throws Error(usage) for unknown keys, with the nearest known one, and for values out of range.
+Config effective_config(const Given& given);
+
+/// The effective settings as TOML; reading it back gives the same settings.
+std::string to_toml(const Config& config);
+
+/// The settings that decide a bake's result, as JSON for the manifest.
+std::string settings_json(const Config& config);
+
+/// Reads the scene and finds its monitors; tells stderr what was dropped or repaired, unless quiet.
+Scene load_scene(const Given& given, const Config& config);
+
+/// Prints a scene's notes to stderr, a line each.
+void print_notes(const Scene& scene);
+
+}  // namespace surimi

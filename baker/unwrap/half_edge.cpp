@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "baker/unwrap/half_edge.h"
+
+#include <algorithm>
+#include <cassert>
+#include <iostream>
+#include <numeric>
+#include <tuple>
+
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+
+namespace surimi {
+namespace {
+
+struct DoubleTraits : OpenMesh::DefaultTraitsDouble {};
+using HalfEdgeMesh = OpenMesh::TriMesh_ArrayKernelT<DoubleTraits>;
+
+/// A triangle is a sliver when its area is below this share of its longest edge squared: then its normal and
+/// its flattened shape are rounding noise. Twice the limit that is usual for "zero area", so that nobody who
+/// counts with other roundings finds a zero-area triangle inside a chart.
+constexpr double sliver_share = 2e-12;
+
+uint32_t after(uint32_t corner) {
+    return corner % 3 == 2 ? corner - 2 : corner + 1;
+}
+
+void weld(const Surface& surface, FaceGraph& graph) {
+    const size_t count = surface.positions.size();
+    std::vector<Vec3> places(count);
+    for (size_t i = 0; i < count; ++i) places[i] = surface.positions[i] + 0.0;
+    std::vector<uint32_t> order(count);
+    std::iota(order.begin(), order.end(), 0u);
+    const auto key = [&](uint32_t i) { return std::make_tuple(places[i].x, places[i].y, places[i].z, i); };
+    std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return key(a) < key(b); });
+    std::vector<uint32_t> welded(count);
+    for (size_t i = 0; i < count; ++i) {
+        if (i == 0 || places[order[i]] != places[order[i - 1]]) graph.positions.push_back(places[order[i]]);
+        welded[order[i]] = static_cast<uint32_t>(graph.positions.size() - 1);
+    }
+    graph.corners.reserve(surface.triangles.size());
+    for (const auto& t : surface.triangles)
+        graph.corners.push_back({welded[t[0]], welded[t[1]], welded[t[2]]});
+}
+
+void measure_faces(FaceGraph& graph) {
+    const size_t count = graph.corners.size();
+    graph.normals.resize(count);
+    graph.areas.resize(count);
+    graph.is_sliver.resize(count);
+    for (size_t f = 0; f < count; ++f) {
+        const Vec3& a = graph.positions[graph.corners[f][0]];
+        const Vec3& b = graph.positions[graph.corners[f][1]];
+        const Vec3& c = graph.positions[graph.corners[f][2]];
+        const Vec3 normal = area_normal(a, b, c);
+        graph.areas[f] = 0.5 * glm::length(normal);
+        graph.normals[f] = normalize_or(normal, Vec3(0, 0, 1));
+        const double longest =
+            std::max(glm::dot(b - a, b - a), std::max(glm::dot(c - b, c - b), glm::dot(a - c, a - c)));
+        graph.is_sliver[f] = !(graph.areas[f] > sliver_share * longest);
+    }
+}
+
+/// The how-manieth face this is on the same three places. Doubled faces would make every edge a four-face
+/// edge; in layers of their own, the second copy of a wall is a wall as well.
+std::vector<uint32_t> find_layers(const FaceGraph& graph) {
+    std::vector<std::tuple<uint32_t, uint32_t, uint32_t, uint32_t>> keys;
+    keys.reserve(graph.corners.size());
+    for (uint32_t f = 0; f < graph.corners.size(); ++f) {
+        auto c = graph.corners[f];
+        std::sort(c.begin(), c.end());
+        keys.emplace_back(c[0], c[1], c[2], f);
+    }
+    std::sort(keys.begin(), keys.end());
+    std::vector<uint32_t> layers(graph.corners.size(), 0);
+    for (size_t i = 1; i < keys.size(); ++i) {
+        const auto& [a, b, c, face] = keys[i];
+        const auto& [before_a, before_b, before_c, before] = keys[i - 1];
+        if (a == before_a && b == before_b && c == before_c) layers[face] = layers[before] + 1;
+    }
+    return layers;
+}
+
+struct EdgeUse {
+    uint32_t layer;
+    uint32_t low;
+    uint32_t high;
+    uint32_t corner;  ///< 3 * face + k: the edge starts there
+    bool operator<(const EdgeUse& o) const {
+        return std::tie(layer, low, high, corner) < std::tie(o.layer, o.low, o.high, o.corner);
+    }
+    bool is_same_edge(const EdgeUse& o) const { return layer == o.layer && low == o.low && high == o.high; }
+};
+
+/// Pairs the uses [begin, end) of one edge: opposite directions, the flattest continuation first.
+void pair_uses(const FaceGraph& graph, const EdgeUse* begin, const EdgeUse* end,
+               std::vector<uint32_t>& partner) {
+    struct Match {
+        double bend;
+        uint32_t a;
+        uint32_t b;
+    };
+    std::vector<Match> matches;
+    for (const EdgeUse* i = begin; i != end; ++i) {
+        for (const EdgeUse* j = i + 1; j != end; ++j) {
+            const uint32_t start_i = graph.corners[i->corner / 3][i->corner % 3];
+            const uint32_t start_j = graph.corners[j->corner / 3][j->corner % 3];
+            if (start_i == start_j) continue;
+            const double bend = -glm::dot(graph.normals[i->corner / 3], graph.normals[j->corner / 3]);
+            matches.push_back({bend, i->corner, j->corner});
+        }
+    }
+    std::sort(matches.begin(), matches.end(), [](const Match& l, const Match& r) {
+        return std::tie(l.bend, l.a, l.b) < std::tie(r.bend, r.a, r.b);
+    });
+    for (const Match& m : matches) {
+        if (partner[m.a] != no_face || partner[m.b] != no_face) continue;
+        partner[m.a] = m.b;
+        partner[m.b] = m.a;
+    }
+}
+
+/// For each corner the one where the same edge starts in the face beyond, or no_face.
+std::vector<uint32_t> pair_edges(const FaceGraph& graph) {
+    const std::vector<uint32_t> layers = find_layers(graph);
+    std::vector<EdgeUse> uses;
+    uses.reserve(graph.corners.size() * 3);
+    for (uint32_t f = 0; f < graph.corners.size(); ++f) {
+        if (graph.is_sliver[f]) continue;
+        for (uint32_t k = 0; k < 3; ++k) {
+            const uint32_t a = graph.corners[f][k];
+            const uint32_t b = graph.corners[f][(k + 1) % 3];
+            uses.push_back({layers[f], std::min(a, b), std::max(a, b), 3 * f + k});
+        }
+    }
+    std::sort(uses.begin(), uses.end());
+    std::vector<uint32_t> partner(graph.corners.size() * 3, no_face);
+    // An edge with hundreds of faces is a bundle of leaves: nothing continues anything there, and trying all
+    // pairs would be quadratic.
+    constexpr size_t most_uses = 64;
+    for (size_t begin = 0; begin < uses.size();) {
+        size_t end = begin + 1;
+        while (end < uses.size() && uses[end].is_same_edge(uses[begin])) ++end;
+        if (end - begin <= most_uses) pair_uses(graph, &uses[begin], &uses[begin] + (end - begin), partner);
+        begin = end;
+    }
+    return partner;
+}
+
+uint32_t find_root(std::vector<uint32_t>& parent, uint32_t i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+}
+
+/// One mesh vertex for each fan of faces: corners are the same vertex when paired edges connect them. A
+/// vertex with one fan and edges with two faces are what OpenMesh accepts in every order.
+std::vector<uint32_t> unite_fans(const std::vector<uint32_t>& partner) {
+    std::vector<uint32_t> fan(partner.size());
+    std::iota(fan.begin(), fan.end(), 0u);
+    const auto unite = [&](uint32_t a, uint32_t b) {
+        a = find_root(fan, a);
+        b = find_root(fan, b);
+        fan[std::max(a, b)] = std::min(a, b);
+    };
+    for (uint32_t corner = 0; corner < partner.size(); ++corner) {
+        if (partner[corner] == no_face) continue;
+        unite(corner, after(partner[corner]));
+        unite(after(corner), partner[corner]);
+    }
+    for (uint32_t corner = 0; corner < fan.size(); ++corner) fan[corner] = find_root(fan, corner);
+    return fan;
+}
+
+HalfEdgeMesh build_mesh(const FaceGraph& graph, const std::vector<uint32_t>& fan) {
+    // OpenMesh tells the terminal about every face it refuses; here a refusal is handled.
+    [[maybe_unused]] static const bool is_quiet = (omerr().disconnect(std::cerr), true);
+    HalfEdgeMesh mesh;
+    std::vector<HalfEdgeMesh::VertexHandle> vertices(fan.size());
+    const auto add_vertex = [&](uint32_t corner) {
+        const Vec3& p = graph.positions[graph.corners[corner / 3][corner % 3]];
+        return mesh.add_vertex(HalfEdgeMesh::Point(p.x, p.y, p.z));
+    };
+    for (uint32_t corner = 0; corner < fan.size(); ++corner)
+        vertices[corner] = fan[corner] == corner ? add_vertex(corner) : vertices[fan[corner]];
+    for (uint32_t f = 0; f < graph.corners.size(); ++f) {
+        const uint32_t c = 3 * f;
+        HalfEdgeMesh::FaceHandle face;
+        // A face that closes on itself (two corners in one fan) is a sliver or a cone of two faces.
+        const bool is_simple = vertices[c] != vertices[c + 1] && vertices[c + 1] != vertices[c + 2] &&
+                               vertices[c + 2] != vertices[c];
+        if (is_simple) face = mesh.add_face(vertices[c], vertices[c + 1], vertices[c + 2]);
+        // Two paired edges between the same two fans: the face becomes an island, so that none is lost.
+        if (!face.is_valid()) face = mesh.add_face(add_vertex(c), add_vertex(c + 1), add_vertex(c + 2));
+        assert(face.is_valid() && face.idx() == static_cast<int>(f));
+    }
+    return mesh;
+}
+
+}  // namespace
+
+FaceGraph build_face_graph(const Surface& surface) {
+    FaceGraph graph;
+    weld(surface, graph);
+    measure_faces(graph);
+    const std::vector<uint32_t> fan = unite_fans(pair_edges(graph));
+    const HalfEdgeMesh mesh = build_mesh(graph, fan);
+    assert(mesh.n_faces() == graph.corners.size());
+    graph.neighbours.assign(graph.corners.size(), {no_face, no_face, no_face});
+    for (uint32_t f = 0; f < graph.corners.size(); ++f) {
+        if (graph.is_sliver[f]) continue;
+        const auto face = mesh.face_handle(f);
+        // OpenMesh names the half-edge that enters the first corner; the edge from corner 0 comes after it.
+        auto edge = mesh.halfedge_handle(face);
+        const Vec3& first = graph.positions[graph.corners[f][0]];
+        for (int i = 0; i < 3; ++i) {
+            const auto& p = mesh.point(mesh.from_vertex_handle(edge));
+            if (p[0] == first.x && p[1] == first.y && p[2] == first.z) break;
+            edge = mesh.next_halfedge_handle(edge);
+        }
+        for (uint32_t k = 0; k < 3; ++k) {
+            const auto beyond = mesh.face_handle(mesh.opposite_halfedge_handle(edge));
+            if (beyond.is_valid()) graph.neighbours[f][k] = static_cast<uint32_t>(beyond.idx());
+            edge = mesh.next_halfedge_handle(edge);
+        }
+    }
+    return graph;
+}
+
+}  // namespace surimi

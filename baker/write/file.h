@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Files that appear whole or not at all.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace surimi {
+
+/// Files that appear together. Each is written under a temporary name in its own folder; `commit` renames all of them.
+/// What is not committed is removed again.
+class PendingFiles {
+  public:
+    PendingFiles() = default;
+    ~PendingFiles();
+    PendingFiles(const PendingFiles&) = delete;
+    PendingFiles& operator=(const PendingFiles&) = delete;
+
+    /// The temporary name to write `path` under.
+    std::filesystem::path add(const std::filesystem::path& path);
+
+    /// Throws Error(cannot_write).
+    void commit();
+
+  private:
+    std::vector<std::pair<std::filesystem::path, std::filesystem::path>> files_;  // temporary, final
+};
+
+/// Writes bytes to a file that exists only once it is complete. Throws Error(cannot_write).
+void write_file(const std::filesystem::path& path, std::span<const uint8_t> bytes);
+
+/// Writes bytes in place, for a name from PendingFiles::add. Throws Error(cannot_write).
+void write_bytes(const std::filesystem::path& path, std::span<const uint8_t> bytes);
+
+}  // namespace surimi

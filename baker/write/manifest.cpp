@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "baker/write/manifest.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+namespace surimi {
+namespace {
+
+using Json = nlohmann::ordered_json;  // keeps what belongs together side by side
+
+constexpr int format_version = 1;
+
+std::string channel_name(int channel) { return std::string(1, "RGB"[channel]); }
+
+Json json_of(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
+
+Json map_section(const Atlas& atlas, const std::vector<ManifestFile>& files) {
+    Json section{{"files", Json::array()},
+                 {"width", atlas.width},
+                 {"height", atlas.height},
+                 {"encoding", {{"exr", "linear"}, {"png", "srgb"}}},
+                 {"uvSet", 1},
+                 {"origin", "top-left"},
+                 {"texelsPerMetre", atlas.texels_per_metre},
+                 {"gutter", atlas.gutter}};
+    for (const ManifestFile& file : files)
+        if (file.role == "visibility") section["files"].push_back(file.name);
+    return section;
+}
+
+/// Width, height, left and top of the rectangle that the node's charts lie in.
+Json rectangle_of(const Atlas& atlas, const std::vector<size_t>& surfaces) {
+    Vec2 low(INFINITY);
+    Vec2 high(-INFINITY);
+    for (const size_t s : surfaces)
+        for (const auto& corners : atlas.surfaces[s].uv)
+            for (const Vec2f& uv : corners) {
+                low = glm::min(low, Vec2(uv));
+                high = glm::max(high, Vec2(uv));
+            }
+    if (!(low.x <= high.x && low.y <= high.y)) return Json::array({0, 0, 0, 0});
+    return Json::array({high.x - low.x, high.y - low.y, low.x, low.y});
+}
+
+Json nodes_section(const Scene& scene, const Atlas& atlas) {
+    std::map<int, std::vector<size_t>> surfaces_of_node;
+    for (size_t s = 0; s < scene.surfaces.size(); ++s) surfaces_of_node[scene.surfaces[s].node].push_back(s);
+    Json section = Json::array();
+    for (const auto& [node, surfaces] : surfaces_of_node) {
+        Json names = Json::array();
+        for (const size_t s : surfaces) names.push_back(scene.surfaces[s].name);
+        section.push_back({{"name", scene.nodes[static_cast<size_t>(node)].name},
+                           {"node", node},
+                           {"surfaces", names},
+                           {"st", rectangle_of(atlas, surfaces)}});
+    }
+    return section;
+}
+
+Json monitors_section(const Scene& scene) {
+    Json section = Json::array();
+    for (const Monitor& monitor : scene.monitors) {
+        Json panels = Json::array();
+        for (const Polygon& panel : monitor.panels) {
+            Json corners = Json::array();
+            for (const Vec3& corner : panel.corners) corners.push_back(json_of(corner));
+            panels.push_back(corners);
+        }
+        const bool has_node = monitor.node >= 0;
+        section.push_back({{"channel", channel_name(monitor.channel)},
+                           {"name", monitor.name},
+                           {"node", has_node ? Json(monitor.node) : Json()},
+                           {"reason", monitor.reason},
+                           {"corners", panels},
+                           {"radiance", json_of(monitor.radiance)},
+                           {"areaSquareMetres", area(monitor)},
+                           {"twoSided", monitor.two_sided}});
+    }
+    return section;
+}
+
+Json texels_section(const Scene& scene, const Bake& bake) {
+    constexpr std::array states{std::pair{"covered", TexelState::covered}, std::pair{"unlit", TexelState::unlit},
+                                std::pair{"filled", TexelState::filled}, std::pair{"empty", TexelState::empty}};
+    Json section = Json::object();
+    for (const Monitor& monitor : scene.monitors) {
+        const auto& pixels = bake.state[static_cast<size_t>(monitor.channel)].pixels;
+        for (const auto& [name, state] : states)
+            section[channel_name(monitor.channel)][name] = std::count(pixels.begin(), pixels.end(), state);
+    }
+    return section;
+}
+
+/// The estimated standard error of V over the measured texels of each channel.
+Json error_section(const Scene& scene, const Bake& bake) {
+    Json section = Json::object();
+    for (const Monitor& monitor : scene.monitors) {
+        const auto c = static_cast<size_t>(monitor.channel);
+        double sum = 0;
+        double largest = 0;
+        size_t count = 0;
+        for (size_t i = 0; i < bake.state[c].pixels.size(); ++i) {
+            if (bake.state[c].pixels[i] != TexelState::covered) continue;
+            const double error = bake.irradiance[c].pixels[i].error;
+            sum += error;
+            largest = std::max(largest, error);
+            ++count;
+        }
+        const double mean = count > 0 ? sum / static_cast<double>(count) : 0;
+        section[channel_name(monitor.channel)] = {{"mean", mean}, {"max", largest}};
+    }
+    return section;
+}
+
+Json caps_section(const Scene& scene, const Atlas& atlas) {
+    Json section = Json::array();
+    for (const DensityCap& cap : atlas.caps)
+        section.push_back(
+            {{"surface", scene.surfaces[cap.surface].name}, {"factor", cap.factor}, {"reason", cap.reason}});
+    return section;
+}
+
+Json notes_section(const Scene& scene) {
+    Json section = Json::array();
+    for (const Note& note : scene.notes)
+        section.push_back({{"what", note.what}, {"count", note.count}, {"where", note.where}});
+    return section;
+}
+
+Json outputs_section(const std::vector<ManifestFile>& files) {
+    Json section = Json::array();
+    for (const ManifestFile& file : files)
+        section.push_back({{"role", file.role}, {"file", file.name}, {"bytes", file.size}, {"hash", file.hash}});
+    return section;
+}
+
+}  // namespace
+
+std::string content_hash(std::span<const uint8_t> bytes) {
+    uint64_t hash = 0xCBF29CE484222325;            // offset basis of the 64-bit FNV-1a
+    constexpr uint64_t prime = 0x00000100000001B3;
+    for (const uint8_t byte : bytes) hash = (hash ^ byte) * prime;
+    std::string text = "fnv1a64:";
+    for (int shift = 60; shift >= 0; shift -= 4) text += "0123456789abcdef"[hash >> shift & 0xF];
+    return text;
+}
+
+std::string make_manifest(const Scene& scene, const Bake& bake, const std::string& settings_json,
+                          const std::string& scene_hash, const std::vector<ManifestFile>& files) {
+    Json rays = Json::object();
+    Json stages = Json::array();
+    for (const StageCost& cost : bake.costs) {
+        if (cost.rays > 0) rays[cost.stage] = cost.rays;
+        stages.push_back({{"stage", cost.stage}, {"seconds", cost.seconds}, {"peakBytes", cost.peak_bytes}});
+    }
+    const Json manifest{{"version", format_version},
+                        {"generator", "surimi " SURIMI_VERSION},
+                        {"scene", {{"file", scene.path.filename().string()}, {"hash", scene_hash}}},
+                        {"settings", Json::parse(settings_json)},
+                        {"map", map_section(bake.atlas, files)},
+                        {"nodes", nodes_section(scene, bake.atlas)},
+                        {"monitors", monitors_section(scene)},
+                        {"texels", texels_section(scene, bake)},
+                        {"error", error_section(scene, bake)},
+                        {"rays", rays},
+                        {"densityCaps", caps_section(scene, bake.atlas)},
+                        {"warnings", bake.warnings},
+                        {"notes", notes_section(scene)},
+                        {"outputs", outputs_section(files)},
+                        {"run", {{"stages", stages}}}};
+    return manifest.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace surimi

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a bake was made from, with what, and what came out, as JSON for people and programs.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "baker/bake.h"
+
+namespace surimi {
+
+/// "fnv1a64:" and sixteen hexadecimal digits: tells whether two files are the same, not who made them (Fowler, Noll
+/// and Vo 1991).
+std::string content_hash(std::span<const uint8_t> bytes);
+
+/// A finished output file.
+struct ManifestFile {
+    std::string role;  ///< "visibility", "bakedGlb", ...
+    std::string name;
+    size_t size = 0;   ///< bytes
+    std::string hash;  ///< content_hash
+};
+
+/// The manifest. Everything that differs from run to run (seconds, memory) is in its last member, "run"; the rest
+/// depends on scene and settings alone. `scene_hash` is that of the scene file, `settings_json` an object.
+std::string make_manifest(const Scene& scene, const Bake& bake, const std::string& settings_json,
+                          const std::string& scene_hash, const std::vector<ManifestFile>& files);
+
+}  // namespace surimi

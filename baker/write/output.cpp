@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "baker/write/output.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "baker/write/baked_glb.h"
+#include "baker/write/file.h"
+#include "baker/write/lightmaps.h"
+#include "baker/write/manifest.h"
+#include "runtime/base/error.h"
+#include "runtime/image/image_file.h"
+#include "runtime/map/map_file.h"
+#include "runtime/scene/gltf.h"
+#include "runtime/scene/uri.h"
+
+namespace surimi {
+namespace {
+
+[[noreturn]] void throw_cannot_write(const std::filesystem::path& path, const std::string& why) {
+    throw Error(ErrorKind::cannot_write, path.string() + ": cannot be written: " + why);
+}
+
+void check_targets(const OutputPaths& paths, const std::filesystem::path& input) {
+    std::error_code ignored;
+    for (const auto& path : {paths.visibility_exr, paths.visibility_png, paths.lightmaps_exr, paths.baked_glb,
+                             paths.manifest_json}) {
+        if (std::filesystem::equivalent(path, input, ignored))
+            throw_cannot_write(path, "it is the input; choose another folder with -o");
+        // Renaming onto a folder fails, and only after other files have their names already.
+        if (std::filesystem::is_directory(path, ignored))
+            throw_cannot_write(path, "it is a folder; remove it or choose another folder with -o");
+    }
+}
+
+void make_folder(const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error || !std::filesystem::is_directory(folder))
+        throw_cannot_write(folder, (error ? error.message() : "it is no folder") + "; choose another folder with -o");
+}
+
+/// Where a file of the bake is while it is unfinished, and what it will be called.
+struct Draft {
+    std::filesystem::path temporary;
+    std::filesystem::path path;
+
+    void require(bool is_as_written, const char* what) const {
+        if (is_as_written) return;
+        throw_cannot_write(path, std::string("read back, ") + what + "; check the disk's free space and health");
+    }
+};
+
+bool is_half_of(float stored, float value) {
+    // Half has 11 significant bits, and steps of 2^-24 near zero.
+    return std::abs(stored - value) <= std::max(std::abs(value) * 0x1p-11f, 0x1p-25f);
+}
+
+void write_visibility_exr(const Draft& draft, const VisibilityMap& map) {
+    write_map_exr(draft.temporary, map);
+    const VisibilityMap back = read_map_exr(draft.temporary);
+    const auto& pixels = map.visibility.pixels;
+    draft.require(back.visibility.width == map.visibility.width && back.visibility.pixels.size() == pixels.size(),
+                  "it has another size");
+    for (size_t i = 0; i < pixels.size(); ++i)
+        for (int c = 0; c < 3; ++c)
+            draft.require(is_half_of(back.visibility.pixels[i][c], pixels[i][c]), "it has other values");
+}
+
+void write_exact(const Draft& draft, std::span<const uint8_t> bytes) {
+    write_bytes(draft.temporary, bytes);
+    const auto back = read_file(draft.temporary);
+    draft.require(back && std::equal(back->begin(), back->end(), bytes.begin(), bytes.end()), "it has other bytes");
+}
+
+void write_evidence(const Draft& draft, const Scene& scene, const Bake& bake) {
+    const Channels channels = lightmap_channels(scene, bake);
+    write_lightmaps(draft.temporary, channels);
+    const Channels back = read_channels(draft.temporary);
+    const size_t count = channels.names.size();
+    draft.require(back.width == channels.width && back.values.size() == channels.values.size(), "it has another size");
+    for (size_t c = 0; c < count; ++c) {
+        const auto found = std::find(back.names.begin(), back.names.end(), channels.names[c]);
+        draft.require(found != back.names.end(), "it lacks a channel");
+        const auto b = static_cast<size_t>(found - back.names.begin());
+        for (size_t i = c, j = b; i < channels.values.size(); i += count, j += count)
+            draft.require(back.values[j] == channels.values[i], "it has other values");
+    }
+}
+
+/// Triangles of the monitors that the configuration describes; they are surfaces of the baked file only.
+size_t new_triangle_count(const Scene& scene) {
+    size_t count = 0;
+    for (const Monitor& monitor : scene.monitors)
+        for (const Polygon& panel : monitor.panels)
+            if (monitor.node < 0) count += panel.corners.size() - 2;
+    return count;
+}
+
+/// Whether the file's surfaces have the atlas' UVs, corner by corner.
+bool has_atlas(const Scene& baked, const Atlas& atlas) {
+    for (size_t s = 0; s < atlas.surfaces.size(); ++s) {
+        const Surface& surface = baked.surfaces[s];
+        const auto& uv = atlas.surfaces[s].uv;
+        if (uv.empty()) continue;
+        if (surface.uv_sets.size() < 2 || surface.triangles.size() != uv.size()) return false;
+        for (size_t t = 0; t < uv.size(); ++t)
+            for (size_t k = 0; k < 3; ++k)
+                if (Vec2f(surface.uv_sets[1][surface.triangles[t][k]]) != uv[t][k]) return false;
+    }
+    return true;
+}
+
+void write_baked_scene(const Draft& draft, const Scene& scene, const Bake& bake, std::span<const uint8_t> png) {
+    write_exact(draft, make_baked_glb(scene, bake.atlas, {png, bake.map.monitors}));
+    try {
+        const Scene back = read_gltf(draft.temporary);
+        draft.require(back.surfaces.size() >= scene.surfaces.size() &&
+                          triangle_count(back) == triangle_count(scene) + new_triangle_count(scene),
+                      "it has other triangles");
+        draft.require(has_atlas(back, bake.atlas), "it has other UVs");
+    } catch (const Error& error) {
+        if (error.kind() == ErrorKind::cannot_write) throw;
+        throw_cannot_write(draft.path, std::string("read back, it is invalid (") + error.what() +
+                                           "); this is a fault of Surimi, please report it with the scene");
+    }
+}
+
+ManifestFile describe(const Draft& draft, const char* role) {
+    const auto bytes = read_file(draft.temporary);
+    draft.require(bytes.has_value(), "it is gone");
+    return {role, draft.path.filename().string(), bytes->size(), content_hash(*bytes)};
+}
+
+}  // namespace
+
+OutputPaths output_paths(const std::filesystem::path& out, const std::filesystem::path& scene) {
+    const std::string name = scene.stem().string();
+    return {out / (name + ".visibility.exr"), out / (name + ".visibility.png"), out / (name + ".lightmaps.exr"),
+            out / (name + ".baked.glb"), out / (name + ".visibility.json")};
+}
+
+OutputPaths write_bake(const std::filesystem::path& out, const Scene& scene, const Bake& bake,
+                       const std::string& settings_json) {
+    const OutputPaths paths = output_paths(out, scene.path);
+    check_targets(paths, scene.path);
+    make_folder(out);
+    const auto input = read_file(scene.path);
+    if (!input)
+        throw Error(ErrorKind::scene, scene.path.string() + ": cannot be read any more; was it moved during the bake?");
+
+    PendingFiles pending;
+    const auto draft = [&](const std::filesystem::path& path) { return Draft{pending.add(path), path}; };
+    const Draft exr = draft(paths.visibility_exr);
+    write_visibility_exr(exr, bake.map);
+    const std::vector<uint8_t> png_bytes = encode_map_png(bake.map);
+    const Draft png = draft(paths.visibility_png);
+    write_exact(png, png_bytes);
+    const Draft lightmaps = draft(paths.lightmaps_exr);
+    write_evidence(lightmaps, scene, bake);
+    const Draft glb = draft(paths.baked_glb);
+    write_baked_scene(glb, scene, bake, png_bytes);
+
+    const std::vector<ManifestFile> files{describe(exr, "visibility"), describe(png, "visibility"),
+                                          describe(lightmaps, "lightmaps"), describe(glb, "bakedGlb")};
+    const std::string manifest = make_manifest(scene, bake, settings_json, content_hash(*input), files);
+    write_exact(draft(paths.manifest_json), {reinterpret_cast<const uint8_t*>(manifest.data()), manifest.size()});
+    pending.commit();
+    return paths;
+}
+
+}  // namespace surimi

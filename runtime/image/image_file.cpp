@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/image/image_file.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "runtime/base/error.h"
+
+namespace surimi {
+namespace {
+
+constexpr int largest_side = 16384;  // the largest texture that common GPUs take
+
+/// Name of OpenImageIO's reader: by the first bytes, since extensions and MIME types lie, else by the extension.
+std::string reader_for(std::span<const uint8_t> bytes, const std::string& name) {
+    const auto starts_with = [&](std::initializer_list<uint8_t> magic) {
+        return bytes.size() >= magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin());
+    };
+    if (starts_with({0xff, 0xd8, 0xff})) return "jpeg";
+    if (starts_with({0x89, 'P', 'N', 'G'})) return "png";
+    return name;
+}
+
+/// Opens an image that lies in memory. In two steps: the one-step call of OpenImageIO 2.4 fails for JPEG.
+std::unique_ptr<OIIO::ImageInput> open_memory(OIIO::Filesystem::IOMemReader& memory, const std::string& reader) {
+    auto input = OIIO::ImageInput::create(reader);
+    OIIO::ImageSpec spec, config;
+    config.attribute("oiio:UnassociatedAlpha", 1);
+    if (!input || !input->set_ioproxy(&memory) || !input->open(reader, spec, config)) return nullptr;
+    return input;
+}
+
+[[noreturn]] void fail_to_write(const std::filesystem::path& path, const std::string& why) {
+    throw Error(ErrorKind::cannot_write,
+                path.string() + ": cannot be written (" + why + "); check the folder's rights and free space");
+}
+
+}  // namespace
+
+Image<glm::u8vec4> decode_image(std::span<const uint8_t> bytes, const std::string& name) {
+    OIIO::Filesystem::IOMemReader memory(const_cast<uint8_t*>(bytes.data()), bytes.size());
+    const auto input = open_memory(memory, reader_for(bytes, name));
+    if (!input) throw Error(ErrorKind::scene, name + ": is no image that can be decoded (" + OIIO::geterror() + ")");
+    const OIIO::ImageSpec& spec = input->spec();
+    if (spec.width < 1 || spec.height < 1 || spec.width > largest_side || spec.height > largest_side ||
+        spec.nchannels < 1 || spec.depth > 1)
+        throw Error(ErrorKind::scene, name + ": image of " + std::to_string(spec.width) + " x " +
+                                          std::to_string(spec.height) + " is not supported; at most 16384 x 16384");
+    const auto channels = static_cast<size_t>(spec.nchannels);
+    Image<glm::u8vec4> image(spec.width, spec.height);
+    std::vector<uint8_t> raw(image.pixels.size() * channels);
+    if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT8, raw.data()))
+        throw Error(ErrorKind::scene, name + ": image is damaged (" + input->geterror() + ")");
+    for (size_t i = 0; i < image.pixels.size(); ++i) {
+        const uint8_t* p = &raw[i * channels];
+        const bool is_grey = channels < 3;
+        const uint8_t alpha = channels == 2 ? p[1] : channels >= 4 ? p[3] : uint8_t{255};
+        image.pixels[i] = {p[0], is_grey ? p[0] : p[1], is_grey ? p[0] : p[2], alpha};
+    }
+    return image;
+}
+
+Channels read_channels(const std::filesystem::path& path) {
+    const auto input = OIIO::ImageInput::open(path.string());
+    if (!input) throw Error(ErrorKind::scene, path.string() + ": cannot be read as an image (" + OIIO::geterror() + ")");
+    const OIIO::ImageSpec& spec = input->spec();
+    if (spec.width < 1 || spec.height < 1 || spec.width > largest_side || spec.height > largest_side || spec.depth > 1)
+        throw Error(ErrorKind::scene, path.string() + ": image size is not supported; at most 16384 x 16384");
+    Channels channels{spec.width, spec.height, spec.channelnames, {}};
+    channels.values.resize(static_cast<size_t>(spec.image_pixels()) * static_cast<size_t>(spec.nchannels));
+    if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, channels.values.data()))
+        throw Error(ErrorKind::scene, path.string() + ": image is damaged (" + input->geterror() + ")");
+    return channels;
+}
+
+void write_exr(const std::filesystem::path& path, const Channels& channels, ExrDepth depth) {
+    OIIO::ImageSpec spec(channels.width, channels.height, static_cast<int>(channels.names.size()),
+                         depth == ExrDepth::half ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT);
+    spec.channelnames = channels.names;
+    spec.alpha_channel = -1;
+    spec.z_channel = -1;
+    spec.attribute("compression", "zip");
+    spec.attribute("oiio:ColorSpace", "Linear");
+    // The temporary name need not end in .exr, so the format is asked for by name.
+    const auto output = OIIO::ImageOutput::create("openexr");
+    if (!output || !output->open(path.string(), spec)) fail_to_write(path, output ? output->geterror() : OIIO::geterror());
+    if (!output->write_image(OIIO::TypeDesc::FLOAT, channels.values.data()) || !output->close())
+        fail_to_write(path, output->geterror());
+}
+
+std::vector<uint8_t> encode_png(const Image<glm::u8vec3>& image) {
+    std::vector<unsigned char> bytes;
+    OIIO::Filesystem::IOVecOutput memory(bytes);
+    const auto output = OIIO::ImageOutput::create("png");
+    if (!output || !output->set_ioproxy(&memory)) throw Error(ErrorKind::internal, "no PNG encoder: " + OIIO::geterror());
+    OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::UINT8);
+    spec.attribute("oiio:ColorSpace", "sRGB");
+    if (!output->open("map.png", spec) || !output->write_image(OIIO::TypeDesc::UINT8, image.pixels.data()) ||
+        !output->close())
+        throw Error(ErrorKind::internal, "PNG encoder: " + output->geterror());
+    return bytes;
+}
+
+void write_png(const std::filesystem::path& path, const Image<glm::u8vec3>& image) {
+    const std::vector<uint8_t> bytes = encode_png(image);
+    OIIO::Filesystem::IOFile file(path.string(), OIIO::Filesystem::IOProxy::Write);
+    if (!file.opened() || file.write(bytes.data(), bytes.size()) != bytes.size()) fail_to_write(path, file.error());
+}
+
+double srgb_from_linear(double linear) {
+    if (!(linear > 0)) return 0;
+    if (linear >= 1) return 1;
+    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+}
+
+double linear_from_srgb(double encoded) {
+    if (!(encoded > 0)) return 0;
+    if (encoded >= 1) return 1;
+    return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+}
+
+glm::u8vec3 srgb8(const Vec3& linear) {
+    const auto code = [](double x) { return static_cast<uint8_t>(std::lround(255 * srgb_from_linear(x))); };
+    return {code(linear.x), code(linear.y), code(linear.z)};
+}
+
+}  // namespace surimi

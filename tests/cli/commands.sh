@@ -1,0 +1,133 @@
+#!/usr/bin/env bash
+# The command line as a user meets it: commands.sh SURIMI SCENES. Every exit code, no half files, the input untouched.
+set -uo pipefail
+surimi=$1
+theater=$2/home-theater/home-theater.glb
+here=$(cd "$(dirname "$0")" && pwd)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+checks=0
+failures=0
+
+fail() {
+    echo "FAILED: $*"
+    failures=$((failures + 1))
+}
+# expect CODE TEXT COMMAND...: the exit code, and TEXT somewhere in what it prints.
+expect() {
+    local code=$1 text=$2
+    shift 2
+    checks=$((checks + 1))
+    "$@" >"$work/stdout" 2>"$work/stderr"
+    local got=$?
+    [[ $got == "$code" ]] || fail "exit code $got in place of $code: $*: $(tail -n 2 "$work/stderr")"
+    grep -qF -- "$text" "$work/stdout" "$work/stderr" || fail "no \"$text\" in the output of: $*: $(tail -n 3 "$work/stderr")"
+}
+check() {
+    checks=$((checks + 1))
+    "$@" || fail "$*"
+}
+
+# 0, and the help
+expect 0 "Exit codes" "$surimi" --help
+expect 0 "--samples" "$surimi" bake --help
+expect 0 "surimi 0." "$surimi" --version
+
+# 2: usage and configuration
+expect 2 "did you mean bake" "$surimi" bkae x.glb
+expect 2 "did you mean --samples" "$surimi" bake "$theater" --sample 3
+expect 2 "" "$surimi"
+expect 2 "samples must be" "$surimi" bake "$theater" --samples 0
+expect 2 "size must be" "$surimi" bake "$theater" --size 4
+expect 2 "" "$surimi" bake "$theater" --size 64 --density 3
+expect 2 "Nobody" "$surimi" bake "$theater" --monitor Nobody
+expect 2 "" "$surimi" bake "$theater" --monitor Monitor_R=X
+printf 'sampels = 3\n' >"$work/bad.toml"
+expect 2 'did you mean "samples"' "$surimi" bake "$theater" --config "$work/bad.toml"
+printf 'samples = "many"\n' >"$work/bad.toml"
+expect 2 "bad.toml:1" "$surimi" bake "$theater" --config "$work/bad.toml"
+printf 'size = [\n' >"$work/bad.toml"
+expect 2 "bad.toml" "$surimi" bake "$theater" --config "$work/bad.toml"
+expect 2 "no camera is called" "$surimi" preview "$theater" -o "$work/x.png" --camera Nowhere
+expect 2 "must be a .png or .exr" "$surimi" preview "$theater" -o "$work/x.bmp"
+
+# 3: the scene
+expect 3 "missing.glb" "$surimi" inspect "$work/missing.glb"
+head -c 1000 "$theater" >"$work/short.glb"
+expect 3 "short.glb" "$surimi" bake "$work/short.glb" -o "$work/short"
+check test ! -e "$work/short"
+printf '{"asset":{"version":"2.0"},"extensionsRequired":["XX_none"],"extensionsUsed":["XX_none"]}' >"$work/extension.gltf"
+expect 3 "XX_none" "$surimi" inspect "$work/extension.gltf"
+
+# 4: nothing to bake
+printf '{"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"name":"Empty"}]}' >"$work/empty.gltf"
+expect 4 "--monitor" "$surimi" bake "$work/empty.gltf" -o "$work/empty"
+check test ! -e "$work/empty"
+
+# 6: cannot write
+: >"$work/file"
+expect 6 "" "$surimi" bake "$theater" --size 64 --samples 1 --quiet -o "$work/file/out"
+
+# A bake: all files, the input as it was, the same bytes again with another number of threads
+before=$(sha256sum <"$theater")
+expect 0 "home-theater.baked.glb" "$surimi" bake "$theater" --size 128 --samples 4 -o "$work/out" --threads 1
+check test "$before" = "$(sha256sum <"$theater")"
+for name in visibility.exr visibility.png lightmaps.exr baked.glb visibility.json; do
+    check test -s "$work/out/home-theater.$name"
+done
+check test -z "$(find "$work/out" -name '*tmp*')"
+expect 0 "" "$surimi" bake "$theater" --size 128 --samples 4 -o "$work/again" --threads 3 --quiet
+check test ! -s "$work/stderr"
+for name in visibility.exr visibility.png lightmaps.exr baked.glb; do
+    check cmp "$work/out/home-theater.$name" "$work/again/home-theater.$name"
+done
+check node "$here/validate_glb.mjs" "$theater" "$work/out/home-theater.baked.glb"
+
+# Settings: file under environment under command line; what is printed can be read back
+printf 'samples = 7\nsize = 96\n' >"$work/some.toml"
+expect 0 "samples = 7 " "$surimi" bake "$theater" --config "$work/some.toml" --print-config
+expect 0 "samples = 8 " env SURIMI_SAMPLES=8 "$surimi" bake "$theater" --config "$work/some.toml" --print-config
+expect 0 "samples = 9 " env SURIMI_SAMPLES=8 "$surimi" bake "$theater" --config "$work/some.toml" --samples 9 --print-config
+"$surimi" bake "$theater" --config "$work/some.toml" --monitor 'Monitor_*=B' --print-config >"$work/effective.toml"
+expect 0 'channel = "B"' "$surimi" bake "$theater" --config "$work/effective.toml" --print-config
+check diff <("$surimi" bake "$theater" --config "$work/effective.toml" --print-config) "$work/effective.toml"
+
+# A monitor that the configuration describes
+printf '[[monitor]]\nname = "Wall"\nchannel = "G"\ncenter = [0, 1.5, 0]\nhalf_u = [0.5, 0, 0]\nhalf_v = [0, 0.3, 0]\n' >"$work/wall.toml"
+expect 0 "Wall" "$surimi" bake "$theater" --config "$work/wall.toml" --size 64 --samples 1 -o "$work/wall"
+check node "$here/validate_glb.mjs" "$theater" "$work/wall/home-theater.baked.glb"
+expect 0 "Wall" "$surimi" inspect "$work/wall/home-theater.baked.glb"
+
+# Baking into the UVs of a bake gives the same map again
+expect 0 "" "$surimi" bake "$work/out/home-theater.baked.glb" --uv existing --size 128 --samples 4 -o "$work/existing" --quiet
+expect 3 "TEXCOORD_1" "$surimi" bake "$theater" --uv existing --size 128 -o "$work/none"
+
+# Inspecting and looking
+expect 0 "Monitor_R" "$surimi" inspect "$theater"
+"$surimi" inspect "$theater" --json | node -e '
+    const report = JSON.parse(require("fs").readFileSync(0));
+    process.exit(report.monitors.length === 1 && report.monitors[0].channel === "R" && report.triangles > 7000 ? 0 : 1)' ||
+    fail "inspect --json"
+checks=$((checks + 1))
+for show in lit visibility unshadowed shadowed uv texels normals; do
+    expect 0 "$show.png" "$surimi" preview "$work/out/home-theater.baked.glb" -o "$work/$show.png" --show $show --size 64 36 --samples 1
+    check test -s "$work/$show.png"
+done
+expect 0 "" "$surimi" preview "$work/out/home-theater.baked.glb" --map "$work/out/home-theater.visibility.exr" \
+    -o "$work/lit.exr" --camera 0 1.5 0 --look-at 0 1 -3 --fov 60 --exposure 2 --size 64 36 --quiet
+expect 0 "no visibility map" "$surimi" preview "$theater" -o "$work/plain.png" --size 64 36 --samples 1
+expect 0 "charts" "$surimi" unwrap "$theater" -o "$work/uv.glb" --size 256
+expect 2 "is the input" "$surimi" unwrap "$work/uv.glb" -o "$work/uv.glb" --size 256
+
+# 130: Ctrl-C leaves nothing behind
+"$surimi" bake "$theater" --size 2048 --samples 4096 -o "$work/interrupted" --quiet 2>"$work/stderr" &
+sleep 3
+kill -INT $!
+wait $!
+code=$?
+[[ $code == 130 ]] || fail "exit code $code after an interrupt in place of 130"
+check test -z "$(find "$work/interrupted" -type f 2>/dev/null)"
+checks=$((checks + 1))
+
+echo "$((checks - failures)) of $checks checks of the command line passed"
+((failures == 0 && checks > 50))

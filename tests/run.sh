@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds and runs every test. Real scenes beside the checkout (SURIMI_SCENES, else
+# ../shared/scenes) are used where they exist.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+shopt -s nullglob
+
+bash .ci/install.sh --tests
+(cd tests/cli && npm ci --silent --no-audit --no-fund)
+if [[ -z ${SURIMI_SCENES:-} && -d ../shared/scenes ]]; then
+    SURIMI_SCENES=$(cd ../shared/scenes && pwd)
+fi
+export SURIMI_SCENES=${SURIMI_SCENES:-}
+
+echo "== release: build"
+cmake --preset release >/dev/null
+cmake --build --preset release
+echo "== release: test"
+ctest --test-dir build/release --output-on-failure
+
+echo "== sanitizers: build"
+cmake --preset asan >/dev/null
+cmake --build --preset asan --target unit_tests stability_tests
+echo "== sanitizers: test"
+# Embree and TBB keep memory until the process ends, by design.
+ASAN_OPTIONS=detect_leaks=0 ctest --test-dir build/asan --output-on-failure -L 'unit|stability'

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "baker/write/output.h"
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "baker/write/lightmaps.h"
+#include "baker/write/manifest.h"
+#include "glb_builder.h"
+#include "runtime/base/error.h"
+#include "runtime/image/image_file.h"
+#include "runtime/map/map_file.h"
+#include "runtime/scene/gltf.h"
+
+namespace surimi::test {
+namespace {
+
+/// A triangle in front of a monitor, "baked" to a map of 4 x 4 texels with known values.
+struct FinishedBake {
+    std::filesystem::path folder = test_folder();
+    std::filesystem::path out = folder / "out";
+    Scene scene;
+    Bake bake;
+
+    FinishedBake() {
+        GlbBuilder file;
+        file.json["meshes"] = {
+            {{"primitives", {{{"attributes", {{"POSITION", file.add_floats({0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3")}}}}}}}};
+        file.json["nodes"] = {{{"name", "Wall"}, {"mesh", 0}}};
+        file.json["scenes"] = {{{"nodes", {0}}}};
+        scene = read_gltf(file.write(folder / "room.glb"));
+        Monitor monitor;
+        monitor.name = "Screen";
+        monitor.channel = 1;
+        monitor.panels = {Polygon{{Vec3(0, 0, 3), Vec3(0, 1, 3), Vec3(1, 1, 3), Vec3(1, 0, 3)}}};
+        scene.monitors.push_back(monitor);
+
+        bake.atlas.width = bake.atlas.height = 4;
+        bake.atlas.surfaces = {{{{Vec2f(0.1f, 0.1f), Vec2f(0.9f, 0.1f), Vec2f(0.1f, 0.9f)}}, {0}}};
+        bake.map.visibility = Image<Vec3f>(4, 4, Vec3f(1));
+        bake.map.monitors[1] = "Screen";
+        bake.state[1] = Image<TexelState>(4, 4, TexelState::covered);
+        bake.irradiance[1] = Image<IrradianceEstimate>(4, 4);
+        for (size_t i = 0; i < 16; ++i) {
+            bake.map.visibility.pixels[i].y = static_cast<float>(i) / 15;
+            bake.irradiance[1].pixels[i] = {0.3f, 0.01f * static_cast<float>(i), 0.001f};
+        }
+        bake.costs = {{"unwrap", 0.1, 0, 1}};
+    }
+    OutputPaths write() const { return write_bake(out, scene, bake, "{}"); }
+    size_t file_count() const {
+        if (!std::filesystem::exists(out)) return 0;
+        return static_cast<size_t>(std::distance(std::filesystem::directory_iterator(out), {}));
+    }
+};
+
+std::vector<uint8_t> content(const std::filesystem::path& path) {
+    std::ifstream stream(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// The kind of the error that `action` throws.
+template <class Action>
+ErrorKind error_of(const Action& action) {
+    try {
+        action();
+    } catch (const Error& error) {
+        return error.kind();
+    }
+    ADD_FAILURE() << "nothing was thrown";
+    return ErrorKind::internal;
+}
+
+TEST(Output, NamesFollowTheScene) {
+    const OutputPaths paths = output_paths("out", "scenes/my.room.gltf");
+    EXPECT_EQ(paths.visibility_exr, "out/my.room.visibility.exr");
+    EXPECT_EQ(paths.visibility_png, "out/my.room.visibility.png");
+    EXPECT_EQ(paths.lightmaps_exr, "out/my.room.lightmaps.exr");
+    EXPECT_EQ(paths.baked_glb, "out/my.room.baked.glb");
+    EXPECT_EQ(paths.manifest_json, "out/my.room.visibility.json");
+}
+
+TEST(Output, AllFilesAreThereAndNothingElse) {
+    const FinishedBake finished;
+    const OutputPaths paths = finished.write();
+    EXPECT_EQ(finished.file_count(), 5u);
+    const VisibilityMap map = read_map_exr(paths.visibility_exr);
+    EXPECT_EQ(map.visibility.pixels[0], Vec3f(1, 0, 1)) << "0 and 1 are exact";
+    EXPECT_EQ(map.visibility.pixels[15], Vec3f(1, 1, 1));
+    EXPECT_EQ(decode_image(content(paths.visibility_png), "x.png").width, 4);
+    EXPECT_EQ(triangle_count(read_gltf(paths.baked_glb)), 1u + 2u) << "the wall, and the monitor of the configuration";
+    EXPECT_TRUE(Json::parse(content(paths.manifest_json)).contains("run"));
+}
+
+TEST(Output, EvidenceHasALayerForEachMonitor) {
+    const FinishedBake finished;
+    const Channels channels = read_channels(finished.write().lightmaps_exr);
+    ASSERT_EQ(channels.names.size(), 4u);
+    const auto value = [&](const std::string& name, size_t texel) {
+        const auto found = std::find(channels.names.begin(), channels.names.end(), name);
+        EXPECT_NE(found, channels.names.end()) << name;
+        return channels.values.at(texel * 4 + static_cast<size_t>(found - channels.names.begin()));
+    };
+    EXPECT_EQ(value("Screen.unshadowed", 5), 0.3f);
+    EXPECT_EQ(value("Screen.shadowed", 5), 0.01f * 5);
+    EXPECT_EQ(value("Screen.error", 5), 0.001f);
+    EXPECT_EQ(value("Screen.state", 5), 1.0f);
+}
+
+TEST(Output, MonitorsOfOneNameHaveLayersOfTheirOwn) {
+    FinishedBake finished;
+    finished.scene.monitors.push_back(finished.scene.monitors[0]);
+    finished.scene.monitors[1].channel = 2;
+    finished.bake.state[2] = finished.bake.state[1];
+    finished.bake.irradiance[2] = finished.bake.irradiance[1];
+    const Channels channels = lightmap_channels(finished.scene, finished.bake);
+    EXPECT_EQ(channels.names[0], "Screen_G.shadowed");
+    EXPECT_EQ(channels.names[4], "Screen_B.shadowed");
+}
+
+TEST(Output, ManifestHashesWhatIsOnTheDisk) {
+    const FinishedBake finished;
+    const OutputPaths paths = finished.write();
+    const Json manifest = Json::parse(content(paths.manifest_json));
+    ASSERT_EQ(manifest["outputs"].size(), 4);
+    for (const Json& file : manifest["outputs"])
+        EXPECT_EQ(file["hash"], content_hash(content(finished.out / file["file"].get<std::string>())));
+    EXPECT_EQ(manifest["scene"]["hash"], content_hash(content(finished.scene.path)));
+}
+
+TEST(Output, SameBakeSameBytes) {
+    const FinishedBake finished;
+    const OutputPaths paths = finished.write();
+    const std::array all{paths.visibility_exr, paths.visibility_png, paths.lightmaps_exr, paths.baked_glb,
+                         paths.manifest_json};
+    std::vector<std::vector<uint8_t>> first;
+    for (const auto& path : all) first.push_back(content(path));
+    finished.write();
+    for (size_t i = 0; i < all.size(); ++i) EXPECT_EQ(content(all[i]), first[i]) << all[i];
+}
+
+TEST(Output, NeverOverwritesTheInput) {
+    FinishedBake finished;
+    std::filesystem::create_directories(finished.out);
+    std::filesystem::create_hard_link(finished.scene.path, finished.out / "room.baked.glb");
+    const auto before = content(finished.scene.path);
+    EXPECT_EQ(error_of([&] { finished.write(); }), ErrorKind::cannot_write);
+    EXPECT_EQ(content(finished.scene.path), before);
+    EXPECT_EQ(finished.file_count(), 1u);
+}
+
+TEST(Output, AFolderInTheWayStopsBeforeAnythingIsWritten) {
+    const FinishedBake finished;
+    std::filesystem::create_directories(finished.out / "room.visibility.json");
+    EXPECT_EQ(error_of([&] { finished.write(); }), ErrorKind::cannot_write);
+    EXPECT_EQ(finished.file_count(), 1u);
+}
+
+TEST(Output, AFileWhereTheFolderShouldBeIsAnError) {
+    const FinishedBake finished;
+    std::ofstream(finished.out) << "in the way";
+    EXPECT_EQ(error_of([&] { finished.write(); }), ErrorKind::cannot_write);
+}
+
+TEST(Output, AFailureHalfwayLeavesTheOldFilesAndNoTemporaries) {
+    FinishedBake finished;
+    const OutputPaths paths = finished.write();
+    const auto before = content(paths.visibility_exr);
+    finished.bake.map.visibility.pixels[3] = Vec3f(0.5f);
+    std::filesystem::remove(finished.scene.path);  // the glb cannot be made any more
+    EXPECT_EQ(error_of([&] { finished.write(); }), ErrorKind::scene);
+    EXPECT_EQ(content(paths.visibility_exr), before);
+    EXPECT_EQ(finished.file_count(), 5u);
+}
+
+TEST(Output, ValuesThatTheFileCannotHoldAreFound) {
+    FinishedBake finished;
+    finished.bake.map.visibility.pixels[3].x = NAN;
+    EXPECT_THROW(finished.write(), Error);
+    EXPECT_EQ(finished.file_count(), 0u);
+}
+
+}  // namespace
+}  // namespace surimi::test
