@@ -33,7 +33,7 @@ struct StageCost {
 struct Bake {
     Atlas atlas;
     VisibilityMap map;
-    std::array<Image<TexelState>, 3> state;     ///< by channel; empty where there is no monitor
+    std::array<Image<TexelState>, 3> state;               ///< by channel; empty where there is no monitor
     std::array<Image<IrradianceEstimate>, 3> irradiance;  ///< by channel; the evidence behind the map
     std::vector<StageCost> costs;
     std::vector<std::string> warnings;

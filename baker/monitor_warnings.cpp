@@ -50,10 +50,11 @@ std::vector<std::string> monitor_warnings(const Scene& scene, const RayScene& ra
         const double tall = height(monitor);
         const double distance = free_distance(rays, monitor, 1e-4 * tall);
         if (distance < tall && !monitor.two_sided)
-            warnings.push_back(fmt::format(
-                "monitor {} shines towards {} into a surface {:.2g} m away, closer than its own height ({:.2g} m); if it "
-                "faces the wrong way, flip its normals",
-                monitor.name, direction_name(front_normal(monitor.panels.front())), distance, tall));
+            warnings.push_back(
+                fmt::format("monitor {} shines towards {} into a surface {:.2g} m away, closer than its own height "
+                            "({:.2g} m); if it "
+                            "faces the wrong way, flip its normals",
+                            monitor.name, direction_name(front_normal(monitor.panels.front())), distance, tall));
     }
     return warnings;
 }

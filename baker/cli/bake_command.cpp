@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <fstream>
@@ -35,7 +35,8 @@ void print_summary(const Scene& scene, const Bake& bake) {
                    count(state, TexelState::filled), count(state, TexelState::empty));
     }
     for (const DensityCap& cap : bake.atlas.caps)
-        fmt::print(stderr, "note: {} has {:.3g} of the density: {}\n", scene.surfaces[cap.surface].name, cap.factor, cap.reason);
+        fmt::print(stderr, "note: {} has {:.3g} of the density: {}\n", scene.surfaces[cap.surface].name, cap.factor,
+                   cap.reason);
     for (const std::string& warning : bake.warnings) fmt::print(stderr, "warning: {}\n", warning);
 }
 
@@ -54,8 +55,8 @@ int bake_scene(const Given& given, const std::filesystem::path& out) {
         std::ifstream manifest(paths.manifest_json);
         fmt::print("{}", std::string(std::istreambuf_iterator<char>(manifest), {}));
     } else {
-        for (const auto& path : {paths.visibility_exr, paths.visibility_png, paths.lightmaps_exr, paths.baked_glb,
-                                 paths.manifest_json})
+        for (const auto& path :
+             {paths.visibility_exr, paths.visibility_png, paths.lightmaps_exr, paths.baked_glb, paths.manifest_json})
             fmt::print("{}\n", path.string());
     }
     return 0;

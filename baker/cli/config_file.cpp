@@ -140,7 +140,8 @@ void check_ranges(const Config& config, const std::string& source) {
             "size must be from 16 to 16384 texels");
     require(std::isfinite(unwrap.texels_per_metre) && unwrap.texels_per_metre >= 0, "density must be positive");
     require(unwrap.gutter >= 1 && unwrap.gutter <= 64, "gutter must be from 1 to 64 texels");
-    require(config.bake.gather.samples >= 1 && config.bake.gather.samples <= 1 << 20, "samples must be from 1 to 1048576");
+    require(config.bake.gather.samples >= 1 && config.bake.gather.samples <= 1 << 20,
+            "samples must be from 1 to 1048576");
     require(config.threads >= 0 && config.threads <= 4096, "threads must be from 0 (all cores) to 4096");
 }
 
@@ -150,7 +151,9 @@ UvSource parse_uv_source(const std::string& text, const std::string& source) {
     throw Error(ErrorKind::usage, source + ": uv must be unwrap or existing, not \"" + text + "\"");
 }
 
-std::string name_of(UvSource uv) { return uv == UvSource::existing ? "existing" : "unwrap"; }
+std::string name_of(UvSource uv) {
+    return uv == UvSource::existing ? "existing" : "unwrap";
+}
 
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates) {
     const auto edits = [&](const std::string& other) {  // Levenshtein 1966

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -15,9 +15,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json as_json(const Vec3& v) { return {v.x, v.y, v.z}; }
+Json as_json(const Vec3& v) {
+    return {v.x, v.y, v.z};
+}
 
-double luminance(const Vec3& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
+double luminance(const Vec3& c) {
+    return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
+}
 
 Json monitor_json(const Monitor& monitor) {
     Json panels = Json::array();
@@ -86,7 +90,8 @@ void print_report(const Scene& scene, const std::string& problem) {
     const Bounds box = bounds(scene);
     fmt::print("{}\n", scene.path.filename().string());
     fmt::print("  {} triangles in {} surfaces, {} nodes, {} materials, {} images, {} cameras\n", triangle_count(scene),
-               scene.surfaces.size(), scene.nodes.size(), scene.materials.size(), scene.images.size(), scene.cameras.size());
+               scene.surfaces.size(), scene.nodes.size(), scene.materials.size(), scene.images.size(),
+               scene.cameras.size());
     if (!scene.surfaces.empty()) {
         const Vec3 size = box.high - box.low;
         fmt::print("  {:.3g} x {:.3g} x {:.3g} m\n", size.x, size.y, size.z);
@@ -97,11 +102,12 @@ void print_report(const Scene& scene, const std::string& problem) {
     fmt::print("monitors\n");
     for (const Monitor& monitor : scene.monitors) {
         const Vec3 front = front_normal(monitor.panels.front());
-        fmt::print("  {} {}: {:.3g} m2 in {} panel{}, shines towards ({:.2f}, {:.2f}, {:.2f}), radiance ({:.3g}, {:.3g}, "
-                   "{:.3g}); found by {}\n",
-                   "RGB"[monitor.channel], monitor.name, area(monitor), monitor.panels.size(),
-                   monitor.panels.size() == 1 ? "" : "s", front.x, front.y, front.z, monitor.radiance.x,
-                   monitor.radiance.y, monitor.radiance.z, monitor.reason);
+        fmt::print(
+            "  {} {}: {:.3g} m2 in {} panel{}, shines towards ({:.2f}, {:.2f}, {:.2f}), radiance ({:.3g}, {:.3g}, "
+            "{:.3g}); found by {}\n",
+            "RGB"[monitor.channel], monitor.name, area(monitor), monitor.panels.size(),
+            monitor.panels.size() == 1 ? "" : "s", front.x, front.y, front.z, monitor.radiance.x, monitor.radiance.y,
+            monitor.radiance.z, monitor.reason);
     }
     if (scene.monitors.empty()) fmt::print("  none\n");
     if (!scene.notes.empty()) fmt::print("notes\n");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <exception>
 #include <vector>
@@ -32,8 +32,8 @@ int usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, cha
         const std::string word(argv[i]);
         const bool is_option = word.rfind("--", 0) == 0;
         const bool is_command = i == 1 && scope == &app;
-        if ((is_option || is_command) && std::find(names.begin(), names.end(), word.substr(0, word.find('='))) == names.end() &&
-            !names.empty()) {
+        if ((is_option || is_command) &&
+            std::find(names.begin(), names.end(), word.substr(0, word.find('='))) == names.end() && !names.empty()) {
             fmt::print(stderr, "did you mean {}?\n", surimi::nearest(word, names));
             break;
         }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "baker/cli/options.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -22,7 +22,9 @@ void add_scene_options(CLI::App& app, Given& given) {
     app.add_option("--config", given.config, "Settings file; default: SCENE's name with .surimi.toml, if it exists")
         ->type_name("FILE")
         ->envname("SURIMI_CONFIG");
-    app.add_option("--threads", given.threads, "Threads to use; 0: all cores [0]")->type_name("N")->envname("SURIMI_THREADS");
+    app.add_option("--threads", given.threads, "Threads to use; 0: all cores [0]")
+        ->type_name("N")
+        ->envname("SURIMI_THREADS");
     app.add_option("--progress", given.progress, "auto, bar, lines, json or none [auto]")
         ->type_name("STYLE")
         ->check(CLI::IsMember({"auto", "bar", "lines", "json", "none"}));
@@ -85,13 +87,17 @@ Config effective_config(const Given& given) {
 
 namespace {
 
-std::string quoted(const std::string& text) { return nlohmann::json(text).dump(); }  // JSON strings are TOML strings
+std::string quoted(const std::string& text) {
+    return nlohmann::json(text).dump();
+}  // JSON strings are TOML strings
 
 std::string channel_line(const std::optional<int>& channel) {
     return channel ? fmt::format("channel = \"{}\"\n", "RGB"[*channel]) : "";
 }
 
-std::string triple(const Vec3& v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); }
+std::string triple(const Vec3& v) {
+    return fmt::format("[{}, {}, {}]", v.x, v.y, v.z);
+}
 
 }  // namespace
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <charconv>
@@ -20,9 +20,13 @@
 namespace surimi {
 namespace {
 
-const std::map<std::string, Show> shows = {
-    {"lit", Show::lit}, {"visibility", Show::visibility}, {"unshadowed", Show::unshadowed}, {"shadowed", Show::shadowed},
-    {"uv", Show::uv},   {"texels", Show::texels},         {"normals", Show::normals}};
+const std::map<std::string, Show> shows = {{"lit", Show::lit},
+                                           {"visibility", Show::visibility},
+                                           {"unshadowed", Show::unshadowed},
+                                           {"shadowed", Show::shadowed},
+                                           {"uv", Show::uv},
+                                           {"texels", Show::texels},
+                                           {"normals", Show::normals}};
 
 struct PreviewOptions {
     Given given;
@@ -61,11 +65,13 @@ VisibilityMap load_map(const Scene& scene, const PreviewOptions& options) {
     if (material) {
         const auto& image = scene.images[static_cast<size_t>(material->visibility_map.image)];
         if (image.empty())
-            throw Error(ErrorKind::scene, scene.path.string() + ": its visibility map could not be decoded; give one with --map");
+            throw Error(ErrorKind::scene,
+                        scene.path.string() + ": its visibility map could not be decoded; give one with --map");
         return map_from_image(image, material->visibility_is_srgb);
     }
     if (!options.given.quiet)
-        fmt::print(stderr, "note: {} carries no visibility map, so nothing is shadowed; bake it, or give a map with --map\n",
+        fmt::print(stderr,
+                   "note: {} carries no visibility map, so nothing is shadowed; bake it, or give a map with --map\n",
                    scene.path.filename().string());
     return {};
 }
@@ -83,7 +89,8 @@ const Camera& camera_named(const Scene& scene, const std::string& name) {
         if (camera.name == name) return camera;
     std::string names;
     for (const Camera& camera : scene.cameras) names += " " + camera.name;
-    throw Error(ErrorKind::usage, fmt::format("no camera is called \"{}\"; the scene has{}", name, names.empty() ? " none" : names));
+    throw Error(ErrorKind::usage,
+                fmt::format("no camera is called \"{}\"; the scene has{}", name, names.empty() ? " none" : names));
 }
 
 View choose_view(const Scene& scene, const VisibilityMap& map, const RayScene& rays, const PreviewOptions& options) {
@@ -136,12 +143,14 @@ int preview(const PreviewOptions& options) {
     settings.height = options.size[1];
     settings.samples_per_side = options.samples;
     settings.show = shows.at(options.show);
-    const Picture picture = render(scene, map, rays, view, settings, make_progress(options.given.progress, options.given.quiet));
+    const Picture picture =
+        render(scene, map, rays, view, settings, make_progress(options.given.progress, options.given.quiet));
     const double exposure = options.exposure ? std::exp2(*options.exposure) : automatic_exposure(picture);
     write_picture(options.out, picture, settings.show, exposure);
     if (!options.given.quiet)
         fmt::print(stderr, "camera ({:.3f}, {:.3f}, {:.3f}) towards ({:.3f}, {:.3f}, {:.3f}), exposure {:+.2f} EV\n",
-                   view.eye.x, view.eye.y, view.eye.z, view.forward.x, view.forward.y, view.forward.z, std::log2(exposure));
+                   view.eye.x, view.eye.y, view.eye.z, view.forward.x, view.forward.y, view.forward.z,
+                   std::log2(exposure));
     fmt::print("{}\n", options.out.string());
     return 0;
 }
@@ -155,8 +164,11 @@ Run add_preview_command(CLI::App& app) {
     command->add_option("-o,--output", options->out, "Picture to write: .png (filmic, sRGB) or .exr (linear)")
         ->required()
         ->type_name("FILE");
-    command->add_option("--map", options->map, "The map as EXR, in place of the one that SCENE carries")->type_name("FILE");
-    command->add_option("--camera", options->camera, "A camera of the scene by name, or a place [the first, else automatic]")
+    command->add_option("--map", options->map, "The map as EXR, in place of the one that SCENE carries")
+        ->type_name("FILE");
+    command
+        ->add_option("--camera", options->camera,
+                     "A camera of the scene by name, or a place [the first, else automatic]")
         ->type_name("NAME | X Y Z")
         ->expected(1, 3);
     command->add_option("--look-at", options->look_at, "Look towards this place")->type_name("X Y Z")->expected(3);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -52,8 +52,8 @@ int unwrap_scene(const Given& given, const std::filesystem::path& out) {
         fmt::print("{}\n", out.string());
     }
     if (!given.quiet)
-        fmt::print(stderr, "{} charts at {:.4g} texels per metre on {} x {}\n", atlas.charts.size(), atlas.texels_per_metre,
-                   atlas.width, atlas.height);
+        fmt::print(stderr, "{} charts at {:.4g} texels per metre on {} x {}\n", atlas.charts.size(),
+                   atlas.texels_per_metre, atlas.width, atlas.height);
     return 0;
 }
 
@@ -65,7 +65,8 @@ Run add_unwrap_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand("unwrap", "Cut a scene into lightmap charts: the scene plus TEXCOORD_1");
     add_scene_options(*command, *given);
     add_unwrap_options(*command, *given);
-    command->add_option("-o,--output", *out, "The .glb to write; default: SCENE's name with .unwrapped.glb")->type_name("FILE");
+    command->add_option("-o,--output", *out, "The .glb to write; default: SCENE's name with .unwrapped.glb")
+        ->type_name("FILE");
     return [given, out] {
         if (out->empty()) *out = given->scene.stem().string() + ".unwrapped.glb";
         return unwrap_scene(*given, *out);

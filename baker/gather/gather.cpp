@@ -57,8 +57,8 @@ IrradianceEstimate gather_texel(const Shared& shared, const Texel& texel, size_t
     const double unshadowed = unshadowed_irradiance(shared, surface, seeds);
     if (!(unshadowed > 0)) return {};
 
-    double all = 0, seen = 0;                           // sums of w and of w v
-    double all_squared = 0, seen_squared = 0;           // sums of w^2 and of w^2 v
+    double all = 0, seen = 0;                  // sums of w and of w v
+    double all_squared = 0, seen_squared = 0;  // sums of w^2 and of w^2 v
     for (const auto& point : shared.sobol) {
         const auto r = scrambled(point, seeds);
         const SurfacePoint from = surface.sample(r[0], r[1]);
@@ -77,8 +77,7 @@ IrradianceEstimate gather_texel(const Shared& shared, const Texel& texel, size_t
     if (!(all > 0)) return {};  // a sliver of the monitor above the horizon that no sample met
     const double visibility = seen / all;
     // Variance of the ratio by linearisation (M7), as if samples were independent: stratification only lowers it.
-    const double variance =
-        (seen_squared * (1 - 2 * visibility) + all_squared * visibility * visibility) / (all * all);
+    const double variance = (seen_squared * (1 - 2 * visibility) + all_squared * visibility * visibility) / (all * all);
     return {static_cast<float>(unshadowed), static_cast<float>(unshadowed * visibility),
             static_cast<float>(std::sqrt(std::max(0.0, variance)))};
 }
@@ -87,8 +86,9 @@ IrradianceEstimate gather_texel(const Shared& shared, const Texel& texel, size_t
 
 Gathered gather(const Scene& scene, const Atlas& atlas, const Texels& texels, const RayScene& rays, size_t monitor,
                 const GatherSettings& settings, const Progress& progress) {
-    Shared shared{scene,   atlas, texels, rays, scene.monitors[monitor], monitor, MonitorSampler(scene.monitors[monitor]),
-                  settings.seed, {}};
+    Shared shared{
+        scene,         atlas, texels, rays, scene.monitors[monitor], monitor, MonitorSampler(scene.monitors[monitor]),
+        settings.seed, {}};
     for (int i = 0; i < settings.samples; ++i) shared.sobol.push_back(sobol::point(static_cast<uint32_t>(i)));
 
     constexpr size_t grain = 256;  // texels; a few milliseconds of rays

@@ -55,7 +55,8 @@ void grow(Image<float>& visibility, std::vector<uint32_t>& owner, const MayTake&
                 if (voters == 0) return;
                 auto best = votes[0];
                 for (size_t v = 1; v < voters; ++v)
-                    if (votes[v].second > best.second || (votes[v].second == best.second && votes[v].first < best.first))
+                    if (votes[v].second > best.second ||
+                        (votes[v].second == best.second && votes[v].first < best.first))
                         best = votes[v];
                 double sum = 0;
                 for_neighbours(visibility, i, [&](size_t j) {

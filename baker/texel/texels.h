@@ -41,7 +41,8 @@ class TexelSurface {
   public:
     TexelSurface(const Scene& scene, const Atlas& atlas, const Texels& texels, const Texel& texel);
 
-    /// The point for (u, v) in [0, 1)^2; evenly spread over the surface's area when (u, v) are (M8). Always on a triangle.
+    /// The point for (u, v) in [0, 1)^2; evenly spread over the surface's area when (u, v) are (M8). Always on a
+    /// triangle.
     SurfacePoint sample(double u, double v) const;
 
     /// m^2 of surface under the texel; 0 for a texel that is only touched.
@@ -53,7 +54,7 @@ class TexelSurface {
         Vec3 origin{0}, edge_u{0}, edge_v{0};
         Vec3 at(double u, double v) const { return origin + u * edge_u + v * edge_v; }
     };
-    struct Piece {  // a triangle or the whole texel square
+    struct Piece {              // a triangle or the whole texel square
         double cumulative = 0;  // area of this and all earlier pieces
         bool is_square = false;
         TriangleRef triangle;

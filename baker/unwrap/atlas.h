@@ -33,8 +33,8 @@ struct DensityCap {
 struct Atlas {
     int width = 0;
     int height = 0;
-    int gutter = 2;               ///< empty texels between the touched texels of two charts, at least
-    double texels_per_metre = 0;  ///< of charts that were not capped
+    int gutter = 2;                   ///< empty texels between the touched texels of two charts, at least
+    double texels_per_metre = 0;      ///< of charts that were not capped
     std::vector<SurfaceUv> surfaces;  ///< one for each Scene::surfaces
     std::vector<Chart> charts;
     std::vector<DensityCap> caps;

@@ -43,8 +43,8 @@ class Growth {
         }
         outermost_.resize(count * directions_.size());
         for (size_t f = 0; f < count; ++f)
-            std::fill_n(outermost_.begin() + static_cast<std::ptrdiff_t>(f * directions_.size()),
-                        directions_.size(), static_cast<uint32_t>(f));
+            std::fill_n(outermost_.begin() + static_cast<std::ptrdiff_t>(f * directions_.size()), directions_.size(),
+                        static_cast<uint32_t>(f));
         // Below the rounding of the sums all costs are alike.
         floor_ = 1e-13 * total;
     }
@@ -123,8 +123,7 @@ class Growth {
         for (size_t d = 0; d < directions_.size(); ++d) {
             uint32_t& mine = outermost_[r * directions_.size() + d];
             const uint32_t other = outermost_[s * directions_.size() + d];
-            if (glm::dot(graph_.normals[other], directions_[d]) >
-                glm::dot(graph_.normals[mine], directions_[d]))
+            if (glm::dot(graph_.normals[other], directions_[d]) > glm::dot(graph_.normals[mine], directions_[d]))
                 mine = other;
         }
     }
@@ -153,8 +152,8 @@ bool find_conflict(const FaceGraph& graph, const FlatChart& chart, std::array<ui
         uint32_t opposite = outermost == 0 ? 1 : 0;
         const Vec3& from = graph.normals[chart.faces[outermost]];
         for (uint32_t i = 0; i < chart.faces.size(); ++i)
-            if (i != outermost && glm::dot(graph.normals[chart.faces[i]], from) <
-                                      glm::dot(graph.normals[chart.faces[opposite]], from))
+            if (i != outermost &&
+                glm::dot(graph.normals[chart.faces[i]], from) < glm::dot(graph.normals[chart.faces[opposite]], from))
                 opposite = i;
         conflict = {outermost, opposite};
         return true;

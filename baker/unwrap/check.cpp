@@ -22,8 +22,7 @@ bool is_separated_by_an_edge(const FlatTriangle& t, const FlatTriangle& other, d
         const Vec2& a = t[e];
         const Vec2& b = t[(e + 1) % 3];
         const double limit = margin > 0 ? margin * glm::length(b - a) : 0;
-        const bool is_outside = doubled_area(a, b, other[0]) <= limit &&
-                                doubled_area(a, b, other[1]) <= limit &&
+        const bool is_outside = doubled_area(a, b, other[0]) <= limit && doubled_area(a, b, other[1]) <= limit &&
                                 doubled_area(a, b, other[2]) <= limit;
         if (is_outside) return true;
     }
@@ -158,8 +157,8 @@ void visit_close_pairs(const std::vector<FlatTriangle>& triangles,
     }
 }
 
-std::vector<std::array<uint32_t, 2>> overlapping_pairs(const std::vector<FlatTriangle>& triangles,
-                                                       double margin, size_t limit) {
+std::vector<std::array<uint32_t, 2>> overlapping_pairs(const std::vector<FlatTriangle>& triangles, double margin,
+                                                       size_t limit) {
     std::vector<FlatTriangle> upright;
     std::vector<uint32_t> number;
     for (uint32_t i = 0; i < triangles.size(); ++i) {

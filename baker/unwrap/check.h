@@ -41,7 +41,7 @@ void visit_close_pairs(const std::vector<FlatTriangle>& triangles,
 /// Pairs of triangles that overlap deeper than `margin`, sorted, no pair twice, about `limit` at most.
 /// Triangles that are not counter-clockwise are left out. No pair, no flip and every triangle mapped: then
 /// the flattening is one to one, whatever holes, slits or branch points the chart has.
-std::vector<std::array<uint32_t, 2>> overlapping_pairs(const std::vector<FlatTriangle>& triangles,
-                                                       double margin, size_t limit);
+std::vector<std::array<uint32_t, 2>> overlapping_pairs(const std::vector<FlatTriangle>& triangles, double margin,
+                                                       size_t limit);
 
 }  // namespace surimi

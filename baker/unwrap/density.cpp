@@ -31,9 +31,8 @@ std::vector<Panel> collect_panels(const Scene& scene) {
             Vec3 twice_area(0);
             for (size_t i = 0; i < polygon.corners.size(); ++i) {
                 panel.centre += polygon.corners[i] / static_cast<double>(polygon.corners.size());
-                twice_area +=
-                    glm::cross(polygon.corners[i] - polygon.corners[0],
-                               polygon.corners[(i + 1) % polygon.corners.size()] - polygon.corners[0]);
+                twice_area += glm::cross(polygon.corners[i] - polygon.corners[0],
+                                         polygon.corners[(i + 1) % polygon.corners.size()] - polygon.corners[0]);
             }
             panel.area = 0.5 * glm::length(twice_area);
             panel.normal = normalize_or(twice_area, Vec3(0));
@@ -85,8 +84,7 @@ class Pieces {
             double leaving = -glm::dot(panel.normal, to_panel) / length;
             if (panel.is_two_sided) leaving = std::abs(leaving);
             const double arriving = 0.5 * glm::dot(twice_area, to_panel) / length;
-            if (leaving > 0 && arriving > 0)
-                piece.light += leaving * arriving * panel.area / (distance * distance);
+            if (leaving > 0 && arriving > 0) piece.light += leaving * arriving * panel.area / (distance * distance);
         }
         return piece;
     }
@@ -133,8 +131,7 @@ void halve_the_largest(const Scene& scene, const std::vector<Reach>& reach, doub
         const std::string reason = fmt::format(
             "{}: {:.3g} m2, on average {:.3g} m from a monitor, would take {:.0f} % of the map; it gets half",
             scene.surfaces[s].name, reach[s].area, reach[s].distance, 100 * share / total);
-        const auto known =
-            std::find_if(caps.begin(), caps.end(), [&](const DensityCap& c) { return c.surface == s; });
+        const auto known = std::find_if(caps.begin(), caps.end(), [&](const DensityCap& c) { return c.surface == s; });
         if (known != caps.end())
             *known = {s, factors[s], reason};
         else
@@ -171,14 +168,12 @@ std::vector<double> density_factors(const Scene& scene, std::vector<DensityCap>&
         const double closeness = far_away * typical / reach[s].distance;
         if (closeness >= 1) continue;
         factors[s] = closeness * closeness;
-        caps.push_back(
-            {s, factors[s],
-             fmt::format("{}: on average {:.3g} m from a monitor, {:.1f} times the typical {:.3g} m",
-                         scene.surfaces[s].name, reach[s].distance, reach[s].distance / typical, typical)});
+        caps.push_back({s, factors[s],
+                        fmt::format("{}: on average {:.3g} m from a monitor, {:.1f} times the typical {:.3g} m",
+                                    scene.surfaces[s].name, reach[s].distance, reach[s].distance / typical, typical)});
     }
     halve_the_largest(scene, reach, typical, factors, caps);
-    std::sort(caps.begin(), caps.end(),
-              [](const DensityCap& l, const DensityCap& r) { return l.surface < r.surface; });
+    std::sort(caps.begin(), caps.end(), [](const DensityCap& l, const DensityCap& r) { return l.surface < r.surface; });
     return factors;
 }
 

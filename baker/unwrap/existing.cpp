@@ -27,8 +27,7 @@ std::string list_numbers(const std::vector<uint32_t>& numbers) {
     std::string text;
     for (size_t i = 0; i < std::min(numbers.size(), named_triangles); ++i)
         text += (i > 0 ? ", " : "") + std::to_string(numbers[i]);
-    if (numbers.size() > named_triangles)
-        text += fmt::format(" and {} more", numbers.size() - named_triangles);
+    if (numbers.size() > named_triangles) text += fmt::format(" and {} more", numbers.size() - named_triangles);
     return text;
 }
 
@@ -57,11 +56,9 @@ SurfaceUv read_uv(const Surface& surface) {
         result.uv.push_back(uv);
     }
     if (!infinite.empty())
-        refuse(fmt::format("TEXCOORD_1 of {} is not finite in triangles {}", surface.name,
-                           list_numbers(infinite)));
+        refuse(fmt::format("TEXCOORD_1 of {} is not finite in triangles {}", surface.name, list_numbers(infinite)));
     if (!outside.empty())
-        refuse(fmt::format("TEXCOORD_1 of {} leaves [0, 1] in triangles {}", surface.name,
-                           list_numbers(outside)));
+        refuse(fmt::format("TEXCOORD_1 of {} leaves [0, 1] in triangles {}", surface.name, list_numbers(outside)));
     return result;
 }
 
@@ -71,8 +68,7 @@ double tolerated_overlap(const FlatTriangle& a, const FlatTriangle& b) {
     return std::max(1e-9, std::min(1e-3, 1e-2 * smaller));
 }
 
-void refuse_overlaps(const Scene& scene, const std::vector<FlatTriangle>& texels,
-                     const std::vector<TriangleId>& ids) {
+void refuse_overlaps(const Scene& scene, const std::vector<FlatTriangle>& texels, const std::vector<TriangleId>& ids) {
     std::vector<std::array<uint32_t, 2>> found;  // of the two surfaces where the first was found
     std::array<uint32_t, 2> surfaces{};
     visit_close_pairs(texels, [&](uint32_t i, uint32_t j) {
@@ -89,10 +85,9 @@ void refuse_overlaps(const Scene& scene, const std::vector<FlatTriangle>& texels
     for (const auto& [a, b] : found) pairs += fmt::format("{}{} with {}", pairs.empty() ? "" : ", ", a, b);
     const std::string& one = scene.surfaces[surfaces[0]].name;
     const std::string& other = scene.surfaces[surfaces[1]].name;
-    if (surfaces[0] == surfaces[1])
-        refuse(fmt::format("TEXCOORD_1 of {} overlaps itself: triangles {}", one, pairs));
-    refuse(fmt::format("TEXCOORD_1 of {} and {} overlap (every placement needs its own texels): triangles {}",
-                       one, other, pairs));
+    if (surfaces[0] == surfaces[1]) refuse(fmt::format("TEXCOORD_1 of {} overlaps itself: triangles {}", one, pairs));
+    refuse(fmt::format("TEXCOORD_1 of {} and {} overlap (every placement needs its own texels): triangles {}", one,
+                       other, pairs));
 }
 
 /// Charts are triangles joined by edges whose ends agree in place and uv.
@@ -151,8 +146,7 @@ void add_charts(const Surface& surface, uint32_t number, Atlas& atlas, std::vect
             uv.chart[t] = uv.chart[root[t]];
         }
         const auto& c = surface.triangles[t];
-        const Vec3 normal =
-            area_normal(surface.positions[c[0]], surface.positions[c[1]], surface.positions[c[2]]);
+        const Vec3 normal = area_normal(surface.positions[c[0]], surface.positions[c[1]], surface.positions[c[2]]);
         areas[uv.chart[t]].space += 0.5 * glm::length(normal);
         areas[uv.chart[t]].uv +=
             0.5 * std::abs(doubled_area({Vec2(uv.uv[t][0]), Vec2(uv.uv[t][1]), Vec2(uv.uv[t][2])}));
@@ -177,19 +171,16 @@ Atlas take_existing(const Scene& scene, const UnwrapSettings& settings) {
         const double side = settings.texels_per_metre * std::sqrt(all.space / all.uv);
         constexpr double largest = 16384;
         if (side > largest)
-            throw Error(
-                ErrorKind::usage,
-                fmt::format(
-                    "{} texels per metre on these UVs need a map of {:.0f} texels; the limit is {:.0f}",
-                    settings.texels_per_metre, side, largest));
+            throw Error(ErrorKind::usage,
+                        fmt::format("{} texels per metre on these UVs need a map of {:.0f} texels; the limit is {:.0f}",
+                                    settings.texels_per_metre, side, largest));
         atlas.width = atlas.height = 4 * static_cast<int>(std::ceil(side / 4));
     }
     const Vec2 size(atlas.width, atlas.height);
     const double texels = size.x * size.y;
     atlas.texels_per_metre = all.space > 0 ? std::sqrt(all.uv * texels / all.space) : 0;
     for (size_t c = 0; c < areas.size(); ++c)
-        if (areas[c].space > 0)
-            atlas.charts[c].texels_per_metre = std::sqrt(areas[c].uv * texels / areas[c].space);
+        if (areas[c].space > 0) atlas.charts[c].texels_per_metre = std::sqrt(areas[c].uv * texels / areas[c].space);
 
     std::vector<FlatTriangle> flat;
     std::vector<TriangleId> ids;

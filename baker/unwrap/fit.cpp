@@ -29,11 +29,10 @@ MaskSets shape_charts(const FitRequest& request, Layout& layout) {
     layout.shapes.resize(request.charts.size());
     constexpr size_t grain = 64;  // charts: some are one texel, some half the map
     parallel_for(request.charts.size(), grain, [&](size_t i) {
-        layout.shapes[i] =
-            to_texels(request.charts[i], layout.texels_per_metre * request.factors[i], layout.map);
+        layout.shapes[i] = to_texels(request.charts[i], layout.texels_per_metre * request.factors[i], layout.map);
         // A chart wider than the map needs no mask to be refused, and could be too large for memory.
-        const bool is_too_large = std::max(layout.shapes[i].width, layout.shapes[i].height) >
-                                  std::max(layout.map.width, layout.map.height);
+        const bool is_too_large =
+            std::max(layout.shapes[i].width, layout.shapes[i].height) > std::max(layout.map.width, layout.map.height);
         if (!is_too_large) masks[i] = make_masks(request.charts[i], layout.shapes[i], layout.map);
     });
     return masks;
@@ -103,8 +102,8 @@ int smallest_size(int low, int high, const Fits& fits) {
         throw Error(ErrorKind::usage, charts + " do not fit any map up to 16384 x 16384; split the scene");
     const std::string size = std::to_string(smallest_size(high / 2, high, fits));
     throw Error(ErrorKind::usage, "a map of " + asked + " texels is too small for " + charts +
-                                      ", even at one texel each; " +
-                                      "the smallest that can hold them is --size " + size + "x" + size);
+                                      ", even at one texel each; " + "the smallest that can hold them is --size " +
+                                      size + "x" + size);
 }
 
 /// Largest density, to about 2 %, that a count of texels does not rule out.
@@ -132,8 +131,7 @@ Layout fit_to_map(const FitRequest& request, const MapSize& map) {
     tell(request, 0.2);
     std::optional<Layout> best;
     double low = high;
-    for (double step = 0.94; !best;
-         step *= step) {  // charts usually fill more than 85 % of what a count promises
+    for (double step = 0.94; !best; step *= step) {  // charts usually fill more than 85 % of what a count promises
         if (low <= lowest) refuse(request, map);
         high = low;
         low = std::max(lowest, high * step * step);
@@ -191,10 +189,9 @@ Layout fit_to_density(const FitRequest& request, double texels_per_metre) {
     }
     if (!best) {
         const double most = 0.9 * highest_density(request, {largest_map, largest_map});
-        throw Error(ErrorKind::usage,
-                    std::to_string(texels_per_metre) +
-                        " texels per metre do not fit a map of 16384 x 16384 texels; about " +
-                        std::to_string(most) + " may");
+        throw Error(ErrorKind::usage, std::to_string(texels_per_metre) +
+                                          " texels per metre do not fit a map of 16384 x 16384 texels; about " +
+                                          std::to_string(most) + " may");
     }
     smallest_size(high / 2, high, [&](int size) {
         std::optional<Layout> smaller = layout_of(size);

@@ -168,8 +168,7 @@ std::array<std::vector<uint32_t>, 2> split_between(const FaceGraph& graph, const
     return halves;
 }
 
-std::vector<std::vector<uint32_t>> connected_parts(const FaceGraph& graph,
-                                                   const std::vector<uint32_t>& faces) {
+std::vector<std::vector<uint32_t>> connected_parts(const FaceGraph& graph, const std::vector<uint32_t>& faces) {
     const auto number = number_faces(faces);
     std::vector<bool> is_seen(faces.size(), false);
     std::vector<std::vector<uint32_t>> parts;

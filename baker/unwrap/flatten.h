@@ -15,13 +15,12 @@ namespace surimi {
 /// points and gets a token of about one texel.
 struct FlatChart {
     uint32_t surface = 0;
-    std::vector<uint32_t> faces;  ///< triangles of the surface
-    std::vector<Vec2> points;     ///< metres, in the tightest box; its low corner is the origin
-    std::vector<std::array<uint32_t, 3>>
-        triangles;         ///< indices into points, for each face; counter-clockwise
-    Vec2 extent{0};        ///< of the box, metres
-    double area = 0;       ///< of the faces in space, square metres
-    double flat_area = 0;  ///< of the flat triangles
+    std::vector<uint32_t> faces;                     ///< triangles of the surface
+    std::vector<Vec2> points;                        ///< metres, in the tightest box; its low corner is the origin
+    std::vector<std::array<uint32_t, 3>> triangles;  ///< indices into points, for each face; counter-clockwise
+    Vec2 extent{0};                                  ///< of the box, metres
+    double area = 0;                                 ///< of the faces in space, square metres
+    double flat_area = 0;                            ///< of the flat triangles
     bool is_sliver = false;
 };
 
@@ -39,7 +38,6 @@ std::array<std::vector<uint32_t>, 2> split_between(const FaceGraph& graph, const
                                                    std::array<uint32_t, 2> seeds);
 
 /// The connected parts of some faces, ordered by their first face.
-std::vector<std::vector<uint32_t>> connected_parts(const FaceGraph& graph,
-                                                   const std::vector<uint32_t>& faces);
+std::vector<std::vector<uint32_t>> connected_parts(const FaceGraph& graph, const std::vector<uint32_t>& faces);
 
 }  // namespace surimi

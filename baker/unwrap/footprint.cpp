@@ -48,8 +48,7 @@ Texels turn_texels(const Texels& texels, int width, int height) {
     Texels result(texels.size());
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x)
-            result[static_cast<size_t>(x) * static_cast<size_t>(height) +
-                   static_cast<size_t>(height - 1 - y)] =
+            result[static_cast<size_t>(x) * static_cast<size_t>(height) + static_cast<size_t>(height - 1 - y)] =
                 texels[static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)];
     return result;
 }
@@ -125,8 +124,7 @@ Vec2 turned(const Vec2& p, const TexelChart& chart, int turns) {
 std::vector<Mask> make_masks(const FlatChart& chart, const TexelChart& shape, const MapSize& map) {
     int width = shape.width;
     int height = shape.height;
-    Texels texels(static_cast<size_t>(width) * static_cast<size_t>(height),
-                  width == 1 && height == 1 ? 1 : 0);
+    Texels texels(static_cast<size_t>(width) * static_cast<size_t>(height), width == 1 && height == 1 ? 1 : 0);
     const double slack = coordinate_slack(map);
     if (width > 1 || height > 1) {
         for (const auto& t : chart.triangles)

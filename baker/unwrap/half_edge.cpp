@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <iostream>
 #include <numeric>
 #include <tuple>
 
@@ -38,8 +37,7 @@ void weld(const Surface& surface, FaceGraph& graph) {
         welded[order[i]] = static_cast<uint32_t>(graph.positions.size() - 1);
     }
     graph.corners.reserve(surface.triangles.size());
-    for (const auto& t : surface.triangles)
-        graph.corners.push_back({welded[t[0]], welded[t[1]], welded[t[2]]});
+    for (const auto& t : surface.triangles) graph.corners.push_back({welded[t[0]], welded[t[1]], welded[t[2]]});
 }
 
 void measure_faces(FaceGraph& graph) {
@@ -92,8 +90,7 @@ struct EdgeUse {
 };
 
 /// Pairs the uses [begin, end) of one edge: opposite directions, the flattest continuation first.
-void pair_uses(const FaceGraph& graph, const EdgeUse* begin, const EdgeUse* end,
-               std::vector<uint32_t>& partner) {
+void pair_uses(const FaceGraph& graph, const EdgeUse* begin, const EdgeUse* end, std::vector<uint32_t>& partner) {
     struct Match {
         double bend;
         uint32_t a;
@@ -109,9 +106,8 @@ void pair_uses(const FaceGraph& graph, const EdgeUse* begin, const EdgeUse* end,
             matches.push_back({bend, i->corner, j->corner});
         }
     }
-    std::sort(matches.begin(), matches.end(), [](const Match& l, const Match& r) {
-        return std::tie(l.bend, l.a, l.b) < std::tie(r.bend, r.a, r.b);
-    });
+    std::sort(matches.begin(), matches.end(),
+              [](const Match& l, const Match& r) { return std::tie(l.bend, l.a, l.b) < std::tie(r.bend, r.a, r.b); });
     for (const Match& m : matches) {
         if (partner[m.a] != no_face || partner[m.b] != no_face) continue;
         partner[m.a] = m.b;
@@ -172,7 +168,7 @@ std::vector<uint32_t> unite_fans(const std::vector<uint32_t>& partner) {
 
 HalfEdgeMesh build_mesh(const FaceGraph& graph, const std::vector<uint32_t>& fan) {
     // OpenMesh tells the terminal about every face it refuses; here a refusal is handled.
-    [[maybe_unused]] static const bool is_quiet = (omerr().disconnect(std::cerr), true);
+    [[maybe_unused]] static const bool is_quiet = (omerr().disable(), true);
     HalfEdgeMesh mesh;
     std::vector<HalfEdgeMesh::VertexHandle> vertices(fan.size());
     const auto add_vertex = [&](uint32_t corner) {
@@ -185,8 +181,8 @@ HalfEdgeMesh build_mesh(const FaceGraph& graph, const std::vector<uint32_t>& fan
         const uint32_t c = 3 * f;
         HalfEdgeMesh::FaceHandle face;
         // A face that closes on itself (two corners in one fan) is a sliver or a cone of two faces.
-        const bool is_simple = vertices[c] != vertices[c + 1] && vertices[c + 1] != vertices[c + 2] &&
-                               vertices[c + 2] != vertices[c];
+        const bool is_simple =
+            vertices[c] != vertices[c + 1] && vertices[c + 1] != vertices[c + 2] && vertices[c + 2] != vertices[c];
         if (is_simple) face = mesh.add_face(vertices[c], vertices[c + 1], vertices[c + 2]);
         // Two paired edges between the same two fans: the face becomes an island, so that none is lost.
         if (!face.is_valid()) face = mesh.add_face(add_vertex(c), add_vertex(c + 1), add_vertex(c + 2));

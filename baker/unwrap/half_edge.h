@@ -17,12 +17,11 @@ inline constexpr uint32_t no_face = UINT32_MAX;
 /// continue each other are neighbours. Faces whose front sides disagree are never neighbours, because a
 /// lightmap texel belongs to one front side.
 struct FaceGraph {
-    std::vector<Vec3> positions;                   ///< welded: every place once, metres
-    std::vector<std::array<uint32_t, 3>> corners;  ///< of each triangle: indices into positions
-    std::vector<std::array<uint32_t, 3>>
-        neighbours;               ///< the face beyond the edge from corner k to k + 1, or no_face
-    std::vector<Vec3> normals;    ///< unit, of the front side
-    std::vector<double> areas;    ///< square metres
+    std::vector<Vec3> positions;                      ///< welded: every place once, metres
+    std::vector<std::array<uint32_t, 3>> corners;     ///< of each triangle: indices into positions
+    std::vector<std::array<uint32_t, 3>> neighbours;  ///< the face beyond the edge from corner k to k + 1, or no_face
+    std::vector<Vec3> normals;                        ///< unit, of the front side
+    std::vector<double> areas;                        ///< square metres
     std::vector<bool> is_sliver;  ///< no direction to speak of: area below 2e-12 of the longest edge squared.
                                   ///< Has no neighbours
 };

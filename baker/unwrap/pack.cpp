@@ -94,12 +94,9 @@ class Occupancy {
 
     Word* level_row(int level, int row) {
         return bits_.data() +
-               (static_cast<size_t>(level) * static_cast<size_t>(height_) + static_cast<size_t>(row)) *
-                   words_;
+               (static_cast<size_t>(level) * static_cast<size_t>(height_) + static_cast<size_t>(row)) * words_;
     }
-    const Word* level_row(int level, int row) const {
-        return const_cast<Occupancy*>(this)->level_row(level, row);
-    }
+    const Word* level_row(int level, int row) const { return const_cast<Occupancy*>(this)->level_row(level, row); }
 
     void shift_into(const Word* bits, int offset, std::vector<Word>& target) const {
         shift_into(bits, offset, target.data());
@@ -124,9 +121,8 @@ class Occupancy {
     int height_;
     int levels_ = 1;
     size_t words_;
-    std::vector<Word> bits_;  ///< level, row, word
-    std::vector<int>
-        free_level_;  ///< of each row: the largest k with 2^k free texels side by side, -1 for none
+    std::vector<Word> bits_;       ///< level, row, word
+    std::vector<int> free_level_;  ///< of each row: the largest k with 2^k free texels side by side, -1 for none
 };
 
 /// A mask with what the search needs: its runs, the telling ones first.
@@ -158,13 +154,11 @@ Template make_template(const Mask& mask) {
 
 class Packer {
   public:
-    Packer(const MapSize& map, int gutter)
-        : map_(map), gutter_(gutter), taken_(map), blocked_(taken_.words()) {}
+    Packer(const MapSize& map, int gutter) : map_(map), gutter_(gutter), taken_(map), blocked_(taken_.words()) {}
 
     bool place(const std::vector<Mask>& masks, Placement& result) {
         // A chart of the same size failed on all rows below the last one's, and the map only fills up.
-        int& hint =
-            hint_[{std::max(masks[0].width, masks[0].height), std::min(masks[0].width, masks[0].height)}];
+        int& hint = hint_[{std::max(masks[0].width, masks[0].height), std::min(masks[0].width, masks[0].height)}];
         std::tuple<int, int> best{INT32_MAX, INT32_MAX};  // upper end, x
         for (int turns = 0; turns < static_cast<int>(masks.size()); ++turns) {
             const Template t = make_template(masks[static_cast<size_t>(turns)]);
@@ -237,8 +231,8 @@ std::vector<uint32_t> sort_charts(const std::vector<std::vector<Mask>>& charts, 
     std::iota(sorted.begin(), sorted.end(), 0u);
     const auto key = [&](uint32_t i) {
         const Mask& m = charts[i][0];
-        return std::make_tuple(-size_under(order, m), -std::max(m.width, m.height),
-                               -std::min(m.width, m.height), -static_cast<int64_t>(m.texels), i);
+        return std::make_tuple(-size_under(order, m), -std::max(m.width, m.height), -std::min(m.width, m.height),
+                               -static_cast<int64_t>(m.texels), i);
     };
     std::sort(sorted.begin(), sorted.end(), [&](uint32_t a, uint32_t b) { return key(a) < key(b); });
     return sorted;

@@ -34,8 +34,7 @@ class Repair {
         const FlatTriangle flat = triangle(t);
         const double doubled = doubled_area(flat);
         if (!(doubled > least_height * std::sqrt(longest_edge_squared(flat)))) return true;
-        const double longest =
-            longest_edge_squared({flat[0] * texels_, flat[1] * texels_, flat[2] * texels_});
+        const double longest = longest_edge_squared({flat[0] * texels_, flat[1] * texels_, flat[2] * texels_});
         return 0.5 * doubled * texels_.x * texels_.y <= collapsed_share * longest;
     }
 

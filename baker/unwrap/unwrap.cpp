@@ -27,16 +27,14 @@ struct Work {
 };
 
 void check_settings(const Scene& scene, const UnwrapSettings& settings) {
-    if (triangle_count(scene) == 0)
-        throw Error(ErrorKind::nothing_to_bake, "the scene has no triangle to unwrap");
+    if (triangle_count(scene) == 0) throw Error(ErrorKind::nothing_to_bake, "the scene has no triangle to unwrap");
     if (settings.gutter < 1) throw Error(ErrorKind::usage, "the gutter has to be at least 1 texel");
     constexpr int largest = 16384;
-    const bool is_size_fit = settings.width >= 1 && settings.height >= 1 && settings.width <= largest &&
-                             settings.height <= largest;
+    const bool is_size_fit =
+        settings.width >= 1 && settings.height >= 1 && settings.width <= largest && settings.height <= largest;
     if (!(settings.texels_per_metre > 0) && !is_size_fit)
         throw Error(ErrorKind::usage, "the map's size has to be between 1 and 16384 texels, not " +
-                                          std::to_string(settings.width) + " x " +
-                                          std::to_string(settings.height));
+                                          std::to_string(settings.width) + " x " + std::to_string(settings.height));
 }
 
 void cut_scene(const Scene& scene, const Progress& progress, Work& work) {
@@ -70,8 +68,7 @@ std::vector<FlatChart> take_apart(const FaceGraph& graph, const FlatChart& chart
         }
         add_valid_charts(graph, std::move(good), parts);
     } else {
-        for (auto& half :
-             split_between(graph, chart.faces, rounded.overlapping[rounded.overlapping.size() / 2]))
+        for (auto& half : split_between(graph, chart.faces, rounded.overlapping[rounded.overlapping.size() / 2]))
             add_valid_charts(graph, std::move(half), parts);
     }
     for (FlatChart& part : parts) part.surface = chart.surface;
@@ -87,8 +84,7 @@ bool replace_failed(Work& work, const std::vector<RoundedChart>& rounded, int ro
     std::vector<std::vector<FlatChart>> parts(work.charts.size());
     parallel_for(work.charts.size(), 16, [&](size_t i) {
         const FlatChart& chart = work.charts[i];
-        if (!is_one_to_one(rounded[i]))
-            parts[i] = take_apart(work.graphs[chart.surface], chart, rounded[i], round);
+        if (!is_one_to_one(rounded[i])) parts[i] = take_apart(work.graphs[chart.surface], chart, rounded[i], round);
     });
     if (std::all_of(rounded.begin(), rounded.end(), is_one_to_one)) return false;
     std::vector<FlatChart> charts;
@@ -109,8 +105,7 @@ Layout fit(const Work& work, const UnwrapSettings& settings, const Progress& pro
     return known > 0 ? fit_near(request, map, known) : fit_to_map(request, map);
 }
 
-Atlas to_atlas(const Scene& scene, const Work& work, const Layout& layout,
-               const std::vector<RoundedChart>& rounded) {
+Atlas to_atlas(const Scene& scene, const Work& work, const Layout& layout, const std::vector<RoundedChart>& rounded) {
     Atlas atlas;
     atlas.width = layout.map.width;
     atlas.height = layout.map.height;
@@ -124,8 +119,7 @@ Atlas to_atlas(const Scene& scene, const Work& work, const Layout& layout,
         const FlatChart& chart = work.charts[i];
         SurfaceUv& surface = atlas.surfaces[chart.surface];
         for (size_t f = 0; f < chart.faces.size(); ++f) {
-            const std::array<uint32_t, 3> t =
-                chart.is_sliver ? std::array<uint32_t, 3>{0, 1, 2} : chart.triangles[f];
+            const std::array<uint32_t, 3> t = chart.is_sliver ? std::array<uint32_t, 3>{0, 1, 2} : chart.triangles[f];
             for (size_t k = 0; k < 3; ++k)
                 surface.uv[chart.faces[f]][k] = Vec2f(rounded[i].points[t[k]] * uv_step);  // exact
             surface.chart[chart.faces[f]] = i;

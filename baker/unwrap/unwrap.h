@@ -15,7 +15,7 @@ enum class UvSource {
 
 struct UnwrapSettings {
     UvSource uv = UvSource::unwrap;
-    int width = 1024;            ///< texels; ignored with a density
+    int width = 1024;  ///< texels; ignored with a density
     int height = 1024;
     double texels_per_metre = 0;  ///< 0: follows from the size. Otherwise the size follows (a multiple of 4, at most
                                   ///< 16384), and `width`, `height` are not used

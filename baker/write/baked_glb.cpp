@@ -28,17 +28,17 @@ struct Placement {
     size_t mesh = 0;
     size_t primitive = 0;
     SplitVertices split;
-    bool is_in_place = false;  ///< the file's TEXCOORD_1 is what the atlas says: nothing to do
+    bool is_in_place = false;      ///< the file's TEXCOORD_1 is what the atlas says: nothing to do
     bool drops_first_set = false;  ///< TEXCOORD_0 was only a stand-in for TEXCOORD_1
-    int moved_set = 0;  ///< where the former TEXCOORD_1 goes, because a material reads it; 0: nowhere
+    int moved_set = 0;             ///< where the former TEXCOORD_1 goes, because a material reads it; 0: nowhere
 };
 
 Json& primitive_of(Json& document, const Placement& placement) {
     return document["meshes"][placement.mesh]["primitives"][placement.primitive];
 }
 
-/// Gives every node with surfaces a mesh of its own. The first one keeps the mesh that it has, unless nodes without
-/// surfaces use it as well.
+/// Gives every node with surfaces a mesh of its own. The first one keeps the mesh that it has, unless nodes
+/// without surfaces use it as well.
 std::vector<Placement> place_meshes(Json& document, const Scene& scene, const Atlas& atlas) {
     assert(atlas.surfaces.size() == scene.surfaces.size());
     std::map<int, std::vector<size_t>> surfaces_of_node;
@@ -115,8 +115,8 @@ void plan_split(const GltfEdit& edit, const Json& primitive, const Surface& surf
         placement.moved_set = 2;
         while (attributes.contains("TEXCOORD_" + std::to_string(placement.moved_set))) ++placement.moved_set;
     } else {
-        placement.drops_first_set = attributes.value("TEXCOORD_0", Json()) == attributes["TEXCOORD_1"] &&
-                                    !reads_set(edit.json(), primitive, 0);
+        placement.drops_first_set =
+            attributes.value("TEXCOORD_0", Json()) == attributes["TEXCOORD_1"] && !reads_set(edit.json(), primitive, 0);
     }
 }
 
@@ -130,7 +130,8 @@ void add_all_accessors(const Json& primitive, std::set<int>& accessors) {
 /// The attributes that the old data of a placement goes to: without the former TEXCOORD_1, or with it moved.
 Json attributes_to_carry(const Json& primitive, const Placement& placement) {
     Json attributes = primitive.at("attributes");
-    if (placement.moved_set > 0) attributes["TEXCOORD_" + std::to_string(placement.moved_set)] = attributes["TEXCOORD_1"];
+    if (placement.moved_set > 0)
+        attributes["TEXCOORD_" + std::to_string(placement.moved_set)] = attributes["TEXCOORD_1"];
     attributes.erase("TEXCOORD_1");
     if (placement.drops_first_set) attributes.erase("TEXCOORD_0");
     return attributes;
@@ -213,11 +214,13 @@ void rewrite_primitive(GltfEdit& edit, const Placement& placement) {
     primitive_of(edit.json(), placement) = std::move(primitive);
 }
 
-/// min and max of every accessor that has or needs them: decoding may have moved values, and files may be wrong.
+/// min and max of every accessor that has or needs them: decoding may have moved values, and files may be
+/// wrong.
 void correct_all_bounds(GltfEdit& edit) {
     std::set<int> positions;
     for (const Json& mesh : list_of(edit.json(), "meshes"))
-        for (const Json& primitive : mesh.at("primitives")) positions.insert(primitive["attributes"].value("POSITION", -1));
+        for (const Json& primitive : mesh.at("primitives"))
+            positions.insert(primitive["attributes"].value("POSITION", -1));
     for (size_t a = 0; a < edit.accessor_count(); ++a) {
         const Json& accessor = edit.json()["accessors"][a];
         const bool has_bounds = accessor.contains("min") || accessor.contains("max");
@@ -230,7 +233,8 @@ void add_map(GltfEdit& edit, const Scene& scene, const std::vector<Placement>& p
     const std::string name = scene.path.stem().string() + ".visibility";
     MapReference reference;
     reference.channels = Json::array();
-    for (const std::string& monitor : map.channels) reference.channels.push_back(monitor.empty() ? Json() : Json(monitor));
+    for (const std::string& monitor : map.channels)
+        reference.channels.push_back(monitor.empty() ? Json() : Json(monitor));
     reference.file = name + ".png";
     MaterialNeeds needs;
     bool is_carried = false;

@@ -16,8 +16,8 @@ namespace surimi {
 
 /// What a glb carries beside the scene; empty `png`: the UVs alone (`surimi unwrap`).
 struct CarriedMap {
-    std::span<const uint8_t> png;          ///< the 8-bit sRGB-encoded map
-    std::array<std::string, 3> channels;   ///< monitor node of R, G, B; empty where unused
+    std::span<const uint8_t> png;         ///< the 8-bit sRGB-encoded map
+    std::array<std::string, 3> channels;  ///< monitor node of R, G, B; empty where unused
 };
 
 /// Reads scene.path again and returns it as a binary glTF in which every placed primitive has the atlas' UVs as

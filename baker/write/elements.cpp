@@ -25,10 +25,13 @@ struct ElementFormat {
 size_t component_size(int64_t type) {
     switch (type) {
         case 5120:
-        case 5121: return 1;
+        case 5121:
+            return 1;
         case 5122:
-        case 5123: return 2;
-        default: return 4;
+        case 5123:
+            return 2;
+        default:
+            return 4;
     }
 }
 
@@ -53,18 +56,24 @@ double component_value(const uint8_t* bytes, int64_t type) {
         return static_cast<double>(value);
     };
     switch (type) {
-        case 5120: return read(int8_t{});
-        case 5121: return read(uint8_t{});
-        case 5122: return read(int16_t{});
-        case 5123: return read(uint16_t{});
-        case 5125: return read(uint32_t{});
-        default: return read(float{});
+        case 5120:
+            return read(int8_t{});
+        case 5121:
+            return read(uint8_t{});
+        case 5122:
+            return read(int16_t{});
+        case 5123:
+            return read(uint16_t{});
+        case 5125:
+            return read(uint32_t{});
+        default:
+            return read(float{});
     }
 }
 
 [[noreturn]] void throw_out_of_range(int accessor) {
-    throw Error(ErrorKind::scene, "accessor " + std::to_string(accessor) +
-                                      ": reaches beyond its data; export the scene again");
+    throw Error(ErrorKind::scene,
+                "accessor " + std::to_string(accessor) + ": reaches beyond its data; export the scene again");
 }
 
 struct ElementBounds {
@@ -72,8 +81,8 @@ struct ElementBounds {
     std::vector<double> high;
 };
 
-/// Values that are not finite do not count, for JSON cannot say them; where a component has no finite value at all
-/// there are no bounds.
+/// Values that are not finite do not count, for JSON cannot say them; where a component has no finite value
+/// at all there are no bounds.
 ElementBounds bounds_of(const ElementFormat& format, std::span<const uint8_t> elements) {
     if (format.size != format.components * format.component_size) return {};  // padded matrices: bounds are optional
     ElementBounds bounds{std::vector<double>(format.components, std::numeric_limits<double>::infinity()),
@@ -105,7 +114,9 @@ Json as_numbers(const std::vector<double>& values, bool is_float) {
 
 }  // namespace
 
-size_t element_size(const Json& accessor) { return format_of(accessor).size; }
+size_t element_size(const Json& accessor) {
+    return format_of(accessor).size;
+}
 
 std::vector<uint8_t> elements_of(const Json& document, const std::vector<std::span<const uint8_t>>& views,
                                  int accessor) {

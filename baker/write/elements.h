@@ -10,12 +10,13 @@
 
 namespace surimi {
 
-/// Bytes of one element, with the padding between columns of small matrices. For this and the following, `accessor` is
-/// an entry of a checked document's "accessors".
+/// Bytes of one element, with the padding between columns of small matrices. For this and the following,
+/// `accessor` is an entry of a checked document's "accessors".
 size_t element_size(const nlohmann::json& accessor);
 
-/// The elements of an accessor, one after the other, as stored; sparse ones filled in. `document` has "accessors" and
-/// "bufferViews", `views` the bytes of the latter. Throws Error(scene) when they reach beyond their view.
+/// The elements of an accessor, one after the other, as stored; sparse ones filled in. `document` has
+/// "accessors" and "bufferViews", `views` the bytes of the latter. Throws Error(scene) when they reach beyond
+/// their view.
 std::vector<uint8_t> elements_of(const nlohmann::json& document, const std::vector<std::span<const uint8_t>>& views,
                                  int accessor);
 

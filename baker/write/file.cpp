@@ -19,7 +19,8 @@ std::filesystem::path PendingFiles::add(const std::filesystem::path& path) {
     // Beside the final file, so that renaming does not cross file systems; with the process' number, so that two runs
     // do not share it. The extension stays last: image libraries look at it.
     std::filesystem::path temporary = path;
-    temporary.replace_filename(path.stem().string() + "." + std::to_string(getpid()) + ".tmp" + path.extension().string());
+    temporary.replace_filename(path.stem().string() + "." + std::to_string(getpid()) + ".tmp" +
+                               path.extension().string());
     files_.emplace_back(temporary, path);
     return temporary;
 }

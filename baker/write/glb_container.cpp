@@ -18,7 +18,9 @@ void append_u32(std::vector<uint8_t>& bytes, size_t value) {
     for (size_t i = 0; i < 4; ++i) bytes.push_back(static_cast<uint8_t>(value >> (8 * i)));
 }
 
-size_t padded(size_t size) { return (size + 3) / 4 * 4; }
+size_t padded(size_t size) {
+    return (size + 3) / 4 * 4;
+}
 
 }  // namespace
 

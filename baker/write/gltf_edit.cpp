@@ -23,12 +23,11 @@ void collect_numbers(const Json& value, std::set<int64_t>& numbers) {
 
 /// Extensions whose content is known to name neither accessors nor buffer views.
 bool is_known_extension(const std::string& name) {
-    constexpr std::array prefixes{"KHR_materials_",        "KHR_texture_",  "EXT_texture_",
-                                  "KHR_lights_",           "EXT_lights_",   "KHR_mesh_quantization",
-                                  "KHR_animation_pointer", "KHR_xmp_",      "KHR_node_visibility",
+    constexpr std::array prefixes{"KHR_materials_",        "KHR_texture_", "EXT_texture_",
+                                  "KHR_lights_",           "EXT_lights_",  "KHR_mesh_quantization",
+                                  "KHR_animation_pointer", "KHR_xmp_",     "KHR_node_visibility",
                                   "MSFT_texture_dds",      "MOZ_lightmap"};
-    return std::any_of(prefixes.begin(), prefixes.end(),
-                       [&](const char* prefix) { return name.starts_with(prefix); });
+    return std::any_of(prefixes.begin(), prefixes.end(), [&](const char* prefix) { return name.starts_with(prefix); });
 }
 
 void collect_foreign_numbers(const Json& value, std::set<int64_t>& numbers) {

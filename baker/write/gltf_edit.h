@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A glTF document under change: its JSON, and the bytes of its buffer views. What nobody touches stays as it was.
+// A glTF document under change: its JSON, and the bytes of its buffer views. What nobody touches stays as it
+// was.
 #pragma once
 
 #include <cstdint>
@@ -47,12 +48,13 @@ class GltfEdit {
     /// The vertex numbers that an accessor of the file holds.
     std::vector<uint32_t> source_indices(int accessor) const;
 
-    /// Declares that only `kept` accessors, and those that animations, skins and unknown extensions use, are still
-    /// needed. The others' places are taken by accessors and views to come, so that no dead data stays in the file.
+    /// Declares that only `kept` accessors, and those that animations, skins and unknown extensions use, are
+    /// still needed. The others' places are taken by accessors and views to come, so that no dead data stays
+    /// in the file.
     void release_accessors(const std::set<int>& kept);
 
-    /// A copy of an accessor of the file with the elements `order`, in the same format; in its place if that was
-    /// released.
+    /// A copy of an accessor of the file with the elements `order`, in the same format; in its place if that
+    /// was released.
     int add_gathered(int source, std::span<const uint32_t> order);
 
     /// A new accessor with these elements, in the place of `replaced` if that was released (-1: nowhere).
@@ -76,8 +78,8 @@ class GltfEdit {
     using Views = std::vector<std::span<const uint8_t>>;
 
     Json json_;
-    Views views_;                               // bytes of json_["bufferViews"]
-    Json source_;                               // "accessors" and "bufferViews" of the file
+    Views views_;  // bytes of json_["bufferViews"]
+    Json source_;  // "accessors" and "bufferViews" of the file
     Views source_views_;
     std::deque<std::vector<uint8_t>> storage_;  // what the views point to; a deque leaves things where they are
     std::set<int> free_accessors_;

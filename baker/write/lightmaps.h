@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The evidence behind a map: for every monitor, what arrives with and without shadows, how sure that is, and where.
+// The evidence behind a map: for every monitor, what arrives with and without shadows, how sure that is, and
+// where.
 #pragma once
 
 #include <filesystem>
@@ -9,9 +10,9 @@
 
 namespace surimi {
 
-/// For every monitor the channels NAME.shadowed and NAME.unshadowed (texel averages of S and E at unit radiance, W/m^2
-/// per W/m^2/sr), NAME.error (standard error of S / E) and NAME.state (the number of the TexelState). NAME is the
-/// monitor's, with its channel added ("TV_G") where two monitors share a name.
+/// For every monitor the channels NAME.shadowed and NAME.unshadowed (texel averages of S and E at unit
+/// radiance, W/m^2 per W/m^2/sr), NAME.error (standard error of S / E) and NAME.state (the number of the
+/// TexelState). NAME is the monitor's, with its channel added ("TV_G") where two monitors share a name.
 Channels lightmap_channels(const Scene& scene, const Bake& bake);
 
 /// Writes them as an EXR of floats. Throws Error(cannot_write).

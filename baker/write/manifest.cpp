@@ -16,9 +16,13 @@ using Json = nlohmann::ordered_json;  // keeps what belongs together side by sid
 
 constexpr int format_version = 1;
 
-std::string channel_name(int channel) { return std::string(1, "RGB"[channel]); }
+std::string channel_name(int channel) {
+    return std::string(1, "RGB"[channel]);
+}
 
-Json json_of(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
+Json json_of(const Vec3& v) {
+    return Json::array({v.x, v.y, v.z});
+}
 
 Json map_section(const Atlas& atlas, const std::vector<ManifestFile>& files) {
     Json section{{"files", Json::array()},
@@ -143,7 +147,7 @@ Json outputs_section(const std::vector<ManifestFile>& files) {
 }  // namespace
 
 std::string content_hash(std::span<const uint8_t> bytes) {
-    uint64_t hash = 0xCBF29CE484222325;            // offset basis of the 64-bit FNV-1a
+    uint64_t hash = 0xCBF29CE484222325;  // offset basis of the 64-bit FNV-1a
     constexpr uint64_t prime = 0x00000100000001B3;
     for (const uint8_t byte : bytes) hash = (hash ^ byte) * prime;
     std::string text = "fnv1a64:";

@@ -11,8 +11,8 @@
 
 namespace surimi {
 
-/// "fnv1a64:" and sixteen hexadecimal digits: tells whether two files are the same, not who made them (Fowler, Noll
-/// and Vo 1991).
+/// "fnv1a64:" and sixteen hexadecimal digits: tells whether two files are the same, not who made them
+/// (Fowler, Noll and Vo 1991).
 std::string content_hash(std::span<const uint8_t> bytes);
 
 /// A finished output file.
@@ -23,8 +23,9 @@ struct ManifestFile {
     std::string hash;  ///< content_hash
 };
 
-/// The manifest. Everything that differs from run to run (seconds, memory) is in its last member, "run"; the rest
-/// depends on scene and settings alone. `scene_hash` is that of the scene file, `settings_json` an object.
+/// The manifest. Everything that differs from run to run (seconds, memory) is in its last member, "run"; the
+/// rest depends on scene and settings alone. `scene_hash` is that of the scene file, `settings_json` an
+/// object.
 std::string make_manifest(const Scene& scene, const Bake& bake, const std::string& settings_json,
                           const std::string& scene_hash, const std::vector<ManifestFile>& files);
 

@@ -13,8 +13,8 @@ constexpr const char* sheen = "KHR_materials_sheen";
 constexpr const char* mark = "visibilityMap";
 constexpr const char* transform = "KHR_texture_transform";
 
-/// Calls visit(use) for every object that refers to a texture: "...Texture": {"index": ...}, in the core or in an
-/// extension.
+/// Calls visit(use) for every object that refers to a texture: "...Texture": {"index": ...}, in the core or
+/// in an extension.
 template <class AnyJson, class Visit>
 void for_each_texture_use(AnyJson& value, const Visit& visit) {
     if (!value.is_object()) return;
@@ -223,10 +223,10 @@ int add_map_texture(GltfEdit& edit, std::span<const uint8_t> png, const std::str
     Json& description = document["images"][static_cast<size_t>(image)];
     description["name"] = name;
     description["mimeType"] = "image/png";
-    constexpr int linear = 9729;   // no mipmaps: a small level would mix charts across their gutters
+    constexpr int linear = 9729;  // no mipmaps: a small level would mix charts across their gutters
     constexpr int clamp = 33071;
-    const int sampler = find_or_add(document["samplers"], {{"magFilter", linear}, {"minFilter", linear},
-                                                           {"wrapS", clamp}, {"wrapT", clamp}});
+    const int sampler = find_or_add(document["samplers"],
+                                    {{"magFilter", linear}, {"minFilter", linear}, {"wrapS", clamp}, {"wrapT", clamp}});
     const Json texture{{"name", name}, {"sampler", sampler}, {"source", image}};
     if (replaced < 0) return find_or_add(document["textures"], texture);
     document["textures"][static_cast<size_t>(replaced)] = texture;
@@ -246,7 +246,8 @@ void assign_materials(GltfEdit& edit, const MaterialNeeds& needs, const MapRefer
             }
         }
     };
-    // Whoever needs nothing keeps the material's place; only then is it known which places are free for the others.
+    // Whoever needs nothing keeps the material's place; only then is it known which places are free for the
+    // others.
     for_each_primitive([&](Json& primitive, const MaterialNeed& need) {
         for_each_material(primitive, [&](Json& material) {
             if (copies.is_needed_as_it_is(material.get<int>(), need)) copies.keep(material.get<int>());

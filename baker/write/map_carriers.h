@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How materials carry the map: a texture on a layer that is switched off, and a mark in the extras that says so.
+// How materials carry the map: a texture on a layer that is switched off, and a mark in the extras that says
+// so.
 #pragma once
 
 #include <cstdint>
@@ -24,24 +25,24 @@ using MaterialNeeds = std::map<std::pair<size_t, size_t>, MaterialNeed>;
 
 /// The map as materials refer to it.
 struct MapReference {
-    int texture = -1;   ///< index into "textures"
-    Json channels;      ///< three names, or null where unused
-    std::string file;   ///< where the map lies for materials that have no layer left to carry it
+    int texture = -1;  ///< index into "textures"
+    Json channels;     ///< three names, or null where unused
+    std::string file;  ///< where the map lies for materials that have no layer left to carry it
 };
 
 /// Whether a texture of any material of `primitive`, variants included, reads TEXCOORD_`set`.
 bool reads_set(const Json& document, const Json& primitive, int set);
 
-/// Takes the map of an earlier bake off all materials, since new UVs make it wrong. Returns a texture that nothing
-/// uses any more, or -1.
+/// Takes the map of an earlier bake off all materials, since new UVs make it wrong. Returns a texture that
+/// nothing uses any more, or -1.
 int remove_carried_map(GltfEdit& edit);
 
 /// Embeds the PNG as a texture (linear, clamped), in the place of `replaced` if that is not -1.
 int add_map_texture(GltfEdit& edit, std::span<const uint8_t> png, const std::string& name, int replaced);
 
-/// Gives every primitive materials that meet its need, copying those that are shared by primitives of other needs.
-/// KHR_materials_clearcoat carries the map; if the material uses it itself, KHR_materials_sheen; if it allows neither,
-/// the mark names the file.
+/// Gives every primitive materials that meet its need, copying those that are shared by primitives of other
+/// needs. KHR_materials_clearcoat carries the map; if the material uses it itself, KHR_materials_sheen; if it
+/// allows neither, the mark names the file.
 void assign_materials(GltfEdit& edit, const MaterialNeeds& needs, const MapReference& map);
 
 }  // namespace surimi

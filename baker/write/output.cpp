@@ -27,8 +27,8 @@ namespace {
 
 void check_targets(const OutputPaths& paths, const std::filesystem::path& input) {
     std::error_code ignored;
-    for (const auto& path : {paths.visibility_exr, paths.visibility_png, paths.lightmaps_exr, paths.baked_glb,
-                             paths.manifest_json}) {
+    for (const auto& path :
+         {paths.visibility_exr, paths.visibility_png, paths.lightmaps_exr, paths.baked_glb, paths.manifest_json}) {
         if (std::filesystem::equivalent(path, input, ignored))
             throw_cannot_write(path, "it is the input; choose another folder with -o");
         // Renaming onto a folder fails, and only after other files have their names already.

@@ -25,7 +25,8 @@ std::span<const uint8_t> bytes_of_view(const tinygltf::Model& model, size_t view
     return std::span<const uint8_t>(buffer).subspan(description.byteOffset, description.byteLength);
 }
 
-/// Views may overlap, so that a small file can ask for more than there is: what no .glb could hold is refused early.
+/// Views may overlap, so that a small file can ask for more than there is: what no .glb could hold is refused
+/// early.
 void check_total_size(const tinygltf::Model& model, const std::filesystem::path& path) {
     size_t total = 0;
     for (const auto& view : model.bufferViews) total += view.byteLength;
@@ -54,8 +55,8 @@ void describe_decoded(const tinygltf::Model& model, int decoded, size_t view, Pl
     const tinygltf::Accessor& source = model.accessors.at(static_cast<size_t>(decoded));
     const auto bytes = bytes_of_view(model, static_cast<size_t>(source.bufferView));
     const size_t size = element_size(source);
-    const auto step = static_cast<size_t>(
-        source.ByteStride(model.bufferViews.at(static_cast<size_t>(source.bufferView))));
+    const auto step =
+        static_cast<size_t>(source.ByteStride(model.bufferViews.at(static_cast<size_t>(source.bufferView))));
     // Vertex attributes begin at multiples of four bytes.
     const size_t stride = source.type == TINYGLTF_TYPE_SCALAR ? size : (size + 3) / 4 * 4;
     std::vector<uint8_t> packed(stride * source.count, 0);
@@ -73,7 +74,8 @@ void describe_decoded(const tinygltf::Model& model, int decoded, size_t view, Pl
     plain.views[view] = std::move(packed);
 }
 
-/// Gives Draco's result the places that its accessors and its compressed view had, so that no dead data stays.
+/// Gives Draco's result the places that its accessors and its compressed view had, so that no dead data
+/// stays.
 class DracoPlaces {
   public:
     DracoPlaces(const tinygltf::Model& model, PlainGltf& plain) : model_(model), plain_(plain) {
@@ -139,9 +141,10 @@ std::string mime_type_of(std::span<const uint8_t> image) {
         size_t offset;
         const char* type;
     };
-    constexpr std::array signatures{Signature{"\x89PNG", 0, "image/png"}, Signature{"\xFF\xD8\xFF", 0, "image/jpeg"},
-                                    Signature{"\xABKTX 20", 0, "image/ktx2"}, Signature{"WEBP", 8, "image/webp"},
-                                    Signature{"DDS ", 0, "image/vnd-ms.dds"}, Signature{"ftypavif", 4, "image/avif"}};
+    constexpr std::array signatures{
+        Signature{"\x89PNG", 0, "image/png"},     Signature{"\xFF\xD8\xFF", 0, "image/jpeg"},
+        Signature{"\xABKTX 20", 0, "image/ktx2"}, Signature{"WEBP", 8, "image/webp"},
+        Signature{"DDS ", 0, "image/vnd-ms.dds"}, Signature{"ftypavif", 4, "image/avif"}};
     for (const Signature& signature : signatures) {
         if (image.size() < signature.offset + signature.bytes.size()) continue;
         const std::string_view begin(reinterpret_cast<const char*>(image.data()) + signature.offset,

@@ -15,9 +15,9 @@ struct PlainGltf {
     std::vector<std::vector<uint8_t>> views;  ///< bytes of json["bufferViews"], decoded
 };
 
-/// Reads a file that read_gltf accepts. Draco and meshopt are decoded, and their extensions gone; images that lie
-/// outside become buffer views (a missing one stays a name). The JSON is otherwise the file's, but "buffers", "buffer"
-/// and "byteOffset" of the views mean nothing any more. Throws Error(scene).
+/// Reads a file that read_gltf accepts. Draco and meshopt are decoded, and their extensions gone; images that
+/// lie outside become buffer views (a missing one stays a name). The JSON is otherwise the file's, but
+/// "buffers", "buffer" and "byteOffset" of the views mean nothing any more. Throws Error(scene).
 PlainGltf load_plain_gltf(const std::filesystem::path& path);
 
 }  // namespace surimi

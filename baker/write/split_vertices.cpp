@@ -64,8 +64,8 @@ class Copies {
     throw Error(ErrorKind::scene, surface.name + ": the file is not the one that was baked; run the bake again");
 }
 
-/// The uv of the file's corners, or nothing for triangles that the Scene dropped. The Scene may list a triangle's
-/// corners in another order than the file (mirrored nodes, fans), so they are matched by vertex.
+/// The uv of the file's corners, or nothing for triangles that the Scene dropped. The Scene may list a
+/// triangle's corners in another order than the file (mirrored nodes, fans), so they are matched by vertex.
 std::vector<std::optional<CornerUv>> uv_by_file_triangle(const Surface& surface, const SurfaceUv& uv,
                                                          std::span<const Triangle> file_triangles) {
     if (uv.uv.size() != surface.triangles.size()) throw_mismatch(surface);
@@ -128,8 +128,8 @@ SplitVertices split_vertices(const Surface& surface, const SurfaceUv& uv, std::s
         for (uint32_t& vertex : triangle) vertex = position[vertex];
     split.triangles = std::move(triangles);
     split.is_unchanged = split.source.size() == vertex_count &&
-                         std::adjacent_find(split.source.begin(), split.source.end(),
-                                            std::greater_equal<uint32_t>()) == split.source.end();
+                         std::adjacent_find(split.source.begin(), split.source.end(), std::greater_equal<uint32_t>()) ==
+                             split.source.end();
     return split;
 }
 

@@ -22,9 +22,9 @@ struct SplitVertices {
     bool is_unchanged = false;  ///< no vertex was split or left out: source is 0, 1, 2, ..., triangles are the file's
 };
 
-/// `file_triangles` index the primitive's `vertex_count` vertices. Triangles that the Scene dropped for having no area
-/// stay, with the uv that their vertices have elsewhere; where that would make them a point, with the uv of some
-/// triangle of the surface, because tools take a point for a triangle that was forgotten.
+/// `file_triangles` index the primitive's `vertex_count` vertices. Triangles that the Scene dropped for
+/// having no area stay, with the uv that their vertices have elsewhere; where that would make them a point,
+/// with the uv of some triangle of the surface, because tools take a point for a triangle that was forgotten.
 /// Throws Error(scene) when surface and file do not fit together.
 SplitVertices split_vertices(const Surface& surface, const SurfaceUv& uv, std::span<const Triangle> file_triangles,
                              size_t vertex_count);

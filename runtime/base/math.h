@@ -28,9 +28,13 @@ inline Vec3 normalize_or(const Vec3& v, const Vec3& fallback) {
     return scaled / glm::length(scaled);
 }
 
-inline bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+inline bool is_finite(const Vec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
 /// Twice the area times the unit normal of the triangle a, b, c (counter-clockwise seen from its front).
-inline Vec3 area_normal(const Vec3& a, const Vec3& b, const Vec3& c) { return glm::cross(b - a, c - a); }
+inline Vec3 area_normal(const Vec3& a, const Vec3& b, const Vec3& c) {
+    return glm::cross(b - a, c - a);
+}
 
 }  // namespace surimi

@@ -15,10 +15,14 @@ constexpr uint64_t hash(uint64_t key) {
     key = (key ^ (key >> 27)) * 0x94d049bb133111ebu;
     return key ^ (key >> 31);
 }
-constexpr uint64_t hash(uint64_t a, uint64_t b) { return hash(hash(a) ^ b); }
+constexpr uint64_t hash(uint64_t a, uint64_t b) {
+    return hash(hash(a) ^ b);
+}
 
 /// [0, 1) from the upper 53 bits.
-constexpr double unit_double(uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1p-53; }
+constexpr double unit_double(uint64_t bits) {
+    return static_cast<double>(bits >> 11) * 0x1p-53;
+}
 
 /// A small sequential generator for tests and set-up; items of parallel loops use `hash` of their own key.
 struct Random {

@@ -66,7 +66,8 @@ Image<glm::u8vec4> decode_image(std::span<const uint8_t> bytes, const std::strin
 
 Channels read_channels(const std::filesystem::path& path) {
     const auto input = OIIO::ImageInput::open(path.string());
-    if (!input) throw Error(ErrorKind::scene, path.string() + ": cannot be read as an image (" + OIIO::geterror() + ")");
+    if (!input)
+        throw Error(ErrorKind::scene, path.string() + ": cannot be read as an image (" + OIIO::geterror() + ")");
     const OIIO::ImageSpec& spec = input->spec();
     if (spec.width < 1 || spec.height < 1 || spec.width > largest_side || spec.height > largest_side || spec.depth > 1)
         throw Error(ErrorKind::scene, path.string() + ": image size is not supported; at most 16384 x 16384");
@@ -85,9 +86,11 @@ void write_exr(const std::filesystem::path& path, const Channels& channels, ExrD
     spec.z_channel = -1;
     spec.attribute("compression", "zip");
     spec.attribute("oiio:ColorSpace", "Linear");
+    spec.attribute("DateTime", "1970:01:01 00:00:00");  // else the library writes the time of day
     // The temporary name need not end in .exr, so the format is asked for by name.
     const auto output = OIIO::ImageOutput::create("openexr");
-    if (!output || !output->open(path.string(), spec)) fail_to_write(path, output ? output->geterror() : OIIO::geterror());
+    if (!output || !output->open(path.string(), spec))
+        fail_to_write(path, output ? output->geterror() : OIIO::geterror());
     if (!output->write_image(OIIO::TypeDesc::FLOAT, channels.values.data()) || !output->close())
         fail_to_write(path, output->geterror());
 }
@@ -96,7 +99,8 @@ std::vector<uint8_t> encode_png(const Image<glm::u8vec3>& image) {
     std::vector<unsigned char> bytes;
     OIIO::Filesystem::IOVecOutput memory(bytes);
     const auto output = OIIO::ImageOutput::create("png");
-    if (!output || !output->set_ioproxy(&memory)) throw Error(ErrorKind::internal, "no PNG encoder: " + OIIO::geterror());
+    if (!output || !output->set_ioproxy(&memory))
+        throw Error(ErrorKind::internal, "no PNG encoder: " + OIIO::geterror());
     OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::UINT8);
     spec.attribute("oiio:ColorSpace", "sRGB");
     if (!output->open("map.png", spec) || !output->write_image(OIIO::TypeDesc::UINT8, image.pixels.data()) ||

@@ -26,7 +26,8 @@ void add_candidates(const RayScene& rays, const Monitor& monitor, double size, s
             for (const double share : {0.5, 0.9}) {
                 const Vec3 eye = start + share * free_way * direction;
                 candidates.push_back(look_at(eye, middle.position - 0.25 * size * up, framing_yfov));
-                candidates.push_back(look_at(eye, middle.position + free_way * middle.normal - 0.5 * size * up, framing_yfov));
+                candidates.push_back(
+                    look_at(eye, middle.position + free_way * middle.normal - 0.5 * size * up, framing_yfov));
                 candidates.push_back(look_at(eye, eye - turn * side * free_way - 0.3 * size * up, framing_yfov));
             }
         }

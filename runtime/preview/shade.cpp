@@ -25,7 +25,8 @@ Vec2 lightmap_uv(const Surface& surface, const Material& material, const Surface
 }
 
 Vec3 texel_color(const VisibilityMap& map, const Vec2& uv) {
-    const auto x = static_cast<int64_t>(uv.x * map.visibility.width), y = static_cast<int64_t>(uv.y * map.visibility.height);
+    const auto x = static_cast<int64_t>(uv.x * map.visibility.width),
+               y = static_cast<int64_t>(uv.y * map.visibility.height);
     const uint64_t h = hash(static_cast<uint64_t>(x / 8), static_cast<uint64_t>(y / 8));
     const Vec3 patch(unit_double(h), unit_double(hash(h)), unit_double(hash(hash(h))));
     return ((x + y) % 2 ? 0.4 : 0.8) * (0.4 + 0.6 * patch);
@@ -52,7 +53,8 @@ Light light_at(const Scene& scene, const VisibilityMap& map, const SurfacePoint&
 }
 
 Vec3 lit_color(const Scene& scene, const Material& material, const SurfacePoint& at, const Light& light) {
-    const Vec3 albedo = Vec3(material.base_color) * linear_color(look_up_texture(scene, material.base_color_texture, at));
+    const Vec3 albedo =
+        Vec3(material.base_color) * linear_color(look_up_texture(scene, material.base_color_texture, at));
     Vec3 irradiance(0);
     for (const Monitor& monitor : scene.monitors)
         irradiance += monitor.radiance * (light.unshadowed[monitor.channel] * light.visibility[monitor.channel]);
@@ -65,17 +67,25 @@ Vec3 color_at(const Scene& scene, const VisibilityMap& map, const SurfacePoint& 
     const Vec2 uv = lightmap_uv(surface, material, at);
     const bool has_uv = std::isfinite(uv.x + uv.y);
     switch (show) {
-        case Show::uv: return has_uv ? Vec3(uv, 0) : Vec3(0);
-        case Show::texels: return has_uv && !map.visibility.empty() ? texel_color(map, uv) : Vec3(0);
-        case Show::normals: return 0.5 * (at.normal + 1.0);
-        default: break;
+        case Show::uv:
+            return has_uv ? Vec3(uv, 0) : Vec3(0);
+        case Show::texels:
+            return has_uv && !map.visibility.empty() ? texel_color(map, uv) : Vec3(0);
+        case Show::normals:
+            return 0.5 * (at.normal + 1.0);
+        default:
+            break;
     }
     const Light light = light_at(scene, map, at, uv);
     switch (show) {
-        case Show::visibility: return light.visibility;
-        case Show::unshadowed: return light.unshadowed / pi;
-        case Show::shadowed: return light.unshadowed * light.visibility / pi;
-        default: return lit_color(scene, material, at, light);
+        case Show::visibility:
+            return light.visibility;
+        case Show::unshadowed:
+            return light.unshadowed / pi;
+        case Show::shadowed:
+            return light.unshadowed * light.visibility / pi;
+        default:
+            return lit_color(scene, material, at, light);
     }
 }
 
@@ -98,7 +108,8 @@ Seen see(const Scene& scene, const VisibilityMap& map, const RayScene& rays, con
         travelled += hit->distance;
         if (hit->triangle.surface >= scene.surfaces.size()) {  // a panel that the configuration describes
             const Monitor& monitor = scene.monitors[hit->triangle.surface - scene.surfaces.size()];
-            if (hit->is_front || monitor.two_sided) seen.color += through * (show == Show::lit ? monitor.radiance : Vec3(1));
+            if (hit->is_front || monitor.two_sided)
+                seen.color += through * (show == Show::lit ? monitor.radiance : Vec3(1));
             seen.distance = std::min(seen.distance, travelled * glm::length(direction));
             break;
         }

@@ -10,7 +10,7 @@ namespace surimi {
 
 struct Seen {
     Vec3 color{0};
-    bool is_surface = false;  ///< something that does not emit took most of the ray
+    bool is_surface = false;     ///< something that does not emit took most of the ray
     double distance = INFINITY;  ///< metres to the first thing seen
 };
 
@@ -18,6 +18,8 @@ struct Seen {
 Seen see(const Scene& scene, const VisibilityMap& map, const RayScene& rays, const Vec3& eye, const Vec3& direction,
          Show show);
 
-inline double luminance(const Vec3& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }  // Rec. 709
+inline double luminance(const Vec3& c) {
+    return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
+}  // Rec. 709
 
 }  // namespace surimi

@@ -65,8 +65,8 @@ void load_element(const tinygltf::Accessor& accessor, const uint8_t* bytes, doub
     const size_t rows = row_count(accessor.type);
     const size_t size = component_size(accessor.componentType);
     for (size_t c = 0; c < component_count(accessor); ++c)
-        out[c] = load_component(bytes + c / rows * column_stride(accessor) + c % rows * size,
-                                accessor.componentType, accessor.normalized);
+        out[c] = load_component(bytes + c / rows * column_stride(accessor) + c % rows * size, accessor.componentType,
+                                accessor.normalized);
 }
 
 Elements elements_in(const tinygltf::Model& model, int view_index, size_t offset, size_t count, size_t size) {
@@ -78,9 +78,8 @@ Elements elements_in(const tinygltf::Model& model, int view_index, size_t offset
 /// The sparse parts are always packed, whatever stride their view claims.
 Elements sparse_indices(const tinygltf::Model& model, const tinygltf::Accessor& accessor) {
     const auto& part = accessor.sparse.indices;
-    Elements elements =
-        elements_in(model, part.bufferView, static_cast<size_t>(part.byteOffset),
-                    static_cast<size_t>(accessor.sparse.count), component_size(part.componentType));
+    Elements elements = elements_in(model, part.bufferView, static_cast<size_t>(part.byteOffset),
+                                    static_cast<size_t>(accessor.sparse.count), component_size(part.componentType));
     elements.stride = component_size(part.componentType);
     return elements;
 }
@@ -110,8 +109,7 @@ class Layout {
         if (fits(view.byteOffset, 0, 1, view.byteLength, size)) return;
         fail(path_, place_name("buffer view", v, view.name),
              "bytes " + std::to_string(view.byteOffset) + " and " + std::to_string(view.byteLength) +
-                 " more are outside buffer " + std::to_string(view.buffer) + ", which has " +
-                 std::to_string(size));
+                 " more are outside buffer " + std::to_string(view.buffer) + ", which has " + std::to_string(size));
     }
 
     void check_accessor(size_t a) const {
@@ -144,9 +142,8 @@ class Layout {
         if (stride < range.size) fail(path_, place, "its elements are longer than the stride of " + where);
         if (fits(range.offset, stride, range.count, range.size, view.byteLength)) return;
         fail(path_, place,
-             std::to_string(range.count) + " elements of " + std::to_string(range.size) +
-                 " bytes do not fit in " + where + ", which has " + std::to_string(view.byteLength) +
-                 " bytes");
+             std::to_string(range.count) + " elements of " + std::to_string(range.size) + " bytes do not fit in " +
+                 where + ", which has " + std::to_string(view.byteLength) + " bytes");
     }
 
     void check_sparse(const std::string& place, const tinygltf::Accessor& accessor) const {
@@ -195,8 +192,7 @@ size_t element_size(const tinygltf::Accessor& accessor) {
 }
 
 std::string accessor_name(const tinygltf::Model& model, int accessor) {
-    return place_name("accessor", static_cast<size_t>(accessor),
-                      model.accessors[static_cast<size_t>(accessor)].name);
+    return place_name("accessor", static_cast<size_t>(accessor), model.accessors[static_cast<size_t>(accessor)].name);
 }
 
 void check_layout(const tinygltf::Model& model, const std::filesystem::path& path) {
@@ -210,8 +206,8 @@ std::vector<double> read_accessor(const tinygltf::Model& model, int index) {
     const size_t components = component_count(accessor);
     std::vector<double> values(accessor.count * components, 0.0);
     if (accessor.bufferView >= 0) {
-        const Elements elements = elements_in(model, accessor.bufferView, accessor.byteOffset, accessor.count,
-                                              element_size(accessor));
+        const Elements elements =
+            elements_in(model, accessor.bufferView, accessor.byteOffset, accessor.count, element_size(accessor));
         for (size_t i = 0; i < elements.count; ++i)
             load_element(accessor, elements.first + i * elements.stride, &values[i * components]);
     }
@@ -230,8 +226,7 @@ std::vector<double> read_accessor(const tinygltf::Model& model, int index) {
 std::vector<uint32_t> read_whole_accessor(const tinygltf::Model& model, int index) {
     const std::vector<double> values = read_accessor(model, index);  // doubles hold 32-bit integers exactly
     std::vector<uint32_t> whole(values.size());
-    std::transform(values.begin(), values.end(), whole.begin(),
-                   [](double v) { return static_cast<uint32_t>(v); });
+    std::transform(values.begin(), values.end(), whole.begin(), [](double v) { return static_cast<uint32_t>(v); });
     return whole;
 }
 

@@ -2,11 +2,11 @@
 // glTF accessors: do they lie within their buffers, and what numbers do they hold?
 #pragma once
 
+#include "runtime/scene/gltf_document.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <vector>
-
-#include "runtime/scene/gltf_document.h"
 
 namespace surimi {
 

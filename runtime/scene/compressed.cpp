@@ -52,8 +52,7 @@ class MeshoptDecoder {
         if (!object.Has(key) && !is_required) return 0;
         const tinygltf::Value& value = object.Get(key);
         const double number = value.IsNumber() ? value.GetNumberAsDouble() : -1;
-        if (!(number >= 0 && number <= 2147483647.0 &&
-              number == static_cast<double>(static_cast<size_t>(number))))
+        if (!(number >= 0 && number <= 2147483647.0 && number == static_cast<double>(static_cast<size_t>(number))))
             refuse("\"" + std::string(key) + "\" must be a whole number below 2^31");
         return static_cast<size_t>(number);
     }
@@ -86,25 +85,20 @@ class MeshoptDecoder {
             refuse("mode \"" + stream.mode + "\" is unknown");
         if (is_attributes && (stream.stride < 4 || stream.stride > 256 || stream.stride % 4 != 0))
             refuse("byteStride must be a multiple of 4 up to 256");
-        if (!is_attributes && stream.stride != 2 && stream.stride != 4)
-            refuse("byteStride of indices must be 2 or 4");
-        if (stream.mode == "TRIANGLES" && stream.count % 3 != 0)
-            refuse("the index count is no multiple of 3");
+        if (!is_attributes && stream.stride != 2 && stream.stride != 4) refuse("byteStride of indices must be 2 or 4");
+        if (stream.mode == "TRIANGLES" && stream.count % 3 != 0) refuse("the index count is no multiple of 3");
         if (stream.filter == "OCTAHEDRAL" && stream.stride != 4 && stream.stride != 8)
             refuse("the octahedral filter needs a stride of 4 or 8");
-        if (stream.filter == "QUATERNION" && stream.stride != 8)
-            refuse("the quaternion filter needs a stride of 8");
+        if (stream.filter == "QUATERNION" && stream.stride != 8) refuse("the quaternion filter needs a stride of 8");
         if (stream.filter != "NONE" && !is_attributes) refuse("indices cannot have a filter");
         if (stream.count * stream.stride > stream.size * largest_expansion + expansion_slack)
-            refuse(std::to_string(stream.size) + " bytes cannot hold " + std::to_string(stream.count) +
-                   " elements");
+            refuse(std::to_string(stream.size) + " bytes cannot hold " + std::to_string(stream.count) + " elements");
     }
 
     void decode_view(tinygltf::BufferView& view, const Stream& stream) {
         const size_t size = stream.count * stream.stride;
         if (size < view.byteLength)
-            refuse("it decodes to " + std::to_string(size) + " bytes, the view has " +
-                   std::to_string(view.byteLength));
+            refuse("it decodes to " + std::to_string(size) + " bytes, the view has " + std::to_string(view.byteLength));
         // The filters want whole elements in aligned memory, hence a buffer of its own for each stream.
         std::vector<uint64_t> words(size / sizeof(uint64_t) + 1);
         uint8_t* out = reinterpret_cast<uint8_t*>(words.data());
@@ -115,8 +109,7 @@ class MeshoptDecoder {
             status = meshopt_decodeIndexBuffer(out, stream.count, stream.stride, stream.bytes, stream.size);
         if (stream.mode == "INDICES")
             status = meshopt_decodeIndexSequence(out, stream.count, stream.stride, stream.bytes, stream.size);
-        if (status != 0)
-            refuse("the compressed data is damaged (meshoptimizer: " + std::to_string(status) + ")");
+        if (status != 0) refuse("the compressed data is damaged (meshoptimizer: " + std::to_string(status) + ")");
         apply_filter(stream, out);
         // Views start at multiples of four, as glTF wants for every component type.
         decoded_.data.resize((decoded_.data.size() + 3) / 4 * 4);

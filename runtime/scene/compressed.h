@@ -2,9 +2,9 @@
 // Decodes KHR_draco_mesh_compression and EXT/KHR_meshopt_compression into plain buffers.
 #pragma once
 
-#include <filesystem>
-
 #include "runtime/scene/gltf_document.h"
+
+#include <filesystem>
 
 namespace surimi {
 

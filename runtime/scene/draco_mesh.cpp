@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/scene/accessor.h"
+
 #include "runtime/scene/compressed.h"
 
 #include <draco/compression/decode.h>
@@ -24,8 +25,8 @@ class DracoDecoder {
                 tinygltf::Primitive& primitive = model_.meshes[m].primitives[p];
                 const auto found = primitive.extensions.find(extension_name);
                 if (found == primitive.extensions.end()) continue;
-                place_ = place_name("mesh", m, model_.meshes[m].name) + ", primitive " + std::to_string(p) +
-                         ", " + extension_name;
+                place_ = place_name("mesh", m, model_.meshes[m].name) + ", primitive " + std::to_string(p) + ", " +
+                         extension_name;
                 const tinygltf::Value extension = found->second;
                 primitive.extensions.erase(extension_name);
                 decode_primitive(primitive, extension);
@@ -47,8 +48,7 @@ class DracoDecoder {
         buffer.Init(reinterpret_cast<const char*>(data.data() + view.byteOffset), view.byteLength);
         draco::Decoder decoder;
         auto result = decoder.DecodeMeshFromBuffer(&buffer);
-        if (!result.ok())
-            refuse("the compressed data is damaged (draco: " + result.status().error_msg_string() + ")");
+        if (!result.ok()) refuse("the compressed data is damaged (draco: " + result.status().error_msg_string() + ")");
         return std::move(result).value();
     }
 
@@ -61,8 +61,7 @@ class DracoDecoder {
             const tinygltf::Value& id = attributes.Get(name);
             if (target == primitive.attributes.end()) continue;  // compressed, but not used
             if (!id.IsInt() || id.Get<int>() < 0) refuse("\"" + name + "\" must be a whole number");
-            const draco::PointAttribute* attribute =
-                mesh->GetAttributeByUniqueId(static_cast<uint32_t>(id.Get<int>()));
+            const draco::PointAttribute* attribute = mesh->GetAttributeByUniqueId(static_cast<uint32_t>(id.Get<int>()));
             if (attribute == nullptr) refuse("attribute " + name + " is not in the compressed data");
             target->second = append_attribute(*mesh, *attribute, target->second, name);
         }
@@ -104,8 +103,8 @@ class DracoDecoder {
 
     /// Elements start at multiples of four bytes, as glTF wants.
     template <class Component>
-    bool convert(const draco::Mesh& mesh, const draco::PointAttribute& attribute,
-                 const tinygltf::Accessor& accessor, std::vector<uint8_t>& bytes) const {
+    bool convert(const draco::Mesh& mesh, const draco::PointAttribute& attribute, const tinygltf::Accessor& accessor,
+                 std::vector<uint8_t>& bytes) const {
         const size_t components = component_count(accessor);
         const size_t stride = (components * sizeof(Component) + 3) / 4 * 4;
         bytes.assign(stride * mesh.num_points(), 0);

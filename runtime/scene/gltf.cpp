@@ -19,23 +19,20 @@ Mat4 local_matrix(const tinygltf::Node& node, const std::string& place, Scene& s
     Mat4 matrix{1};
     if (node.matrix.size() == 16) {
         for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = node.matrix[static_cast<size_t>(i)];
-        const bool is_affine =
-            matrix[0][3] == 0 && matrix[1][3] == 0 && matrix[2][3] == 0 && matrix[3][3] == 1;
+        const bool is_affine = matrix[0][3] == 0 && matrix[1][3] == 0 && matrix[2][3] == 0 && matrix[3][3] == 1;
         if (!is_affine) add_note(scene, "last rows of node matrices that are not 0 0 0 1 ignored", place);
         for (int c = 0; c < 4; ++c) matrix[c][3] = c == 3 ? 1 : 0;
         return matrix;
     }
     Vec4 q(0, 0, 0, 1);
-    if (node.rotation.size() == 4)
-        q = Vec4(node.rotation[0], node.rotation[1], node.rotation[2], node.rotation[3]);
+    if (node.rotation.size() == 4) q = Vec4(node.rotation[0], node.rotation[1], node.rotation[2], node.rotation[3]);
     const double length = glm::length(q);
     if (!(length > 0) || !std::isfinite(length)) {
         add_note(scene, "zero rotations ignored", place);
         q = Vec4(0, 0, 0, 1);
     } else {
         // A quaternion from float is off by 1e-7; one that is off by more was not meant to be.
-        if (std::abs(length - 1) > 1e-3)
-            add_note(scene, "rotations that are not unit quaternions renormalised", place);
+        if (std::abs(length - 1) > 1e-3) add_note(scene, "rotations that are not unit quaternions renormalised", place);
         q /= length;
     }
     const double x = q.x, y = q.y, z = q.z, w = q.w;
@@ -69,8 +66,7 @@ double number_or(const json& object, const char* key, double fallback) {
 }
 
 /// EXT_lights_area, "rect": size is the height, intensity is in nits, color is linear.
-void read_area_light(const json& document, const json& source, const std::string& place, Scene& scene,
-                     Node& node) {
+void read_area_light(const json& document, const json& source, const std::string& place, Scene& scene, Node& node) {
     const json::json_pointer light_pointer("/extensions/EXT_lights_area/light");
     const json::json_pointer lights_pointer("/extensions/EXT_lights_area/lights");
     if (!source.contains(light_pointer)) return;
@@ -89,8 +85,7 @@ void read_area_light(const json& document, const json& source, const std::string
     }
     const auto rect = light.find("rect");
     const double height = number_or(light, "size", 1);
-    const double width =
-        height * (rect != light.end() && rect->is_object() ? number_or(*rect, "aspect", 1) : 1);
+    const double width = height * (rect != light.end() && rect->is_object() ? number_or(*rect, "aspect", 1) : 1);
     if (!(height > 0 && width > 0 && height < 1e9 && width < 1e9)) {
         add_note(scene, "EXT_lights_area: rectangles without a size ignored", place);
         return;
@@ -98,8 +93,7 @@ void read_area_light(const json& document, const json& source, const std::string
     Vec3 color(1);
     const auto list = light.find("color");
     for (int k = 0; k < 3; ++k)
-        if (list != light.end() && list->is_array() && list->size() == 3 &&
-            (*list)[static_cast<size_t>(k)].is_number())
+        if (list != light.end() && list->is_array() && list->size() == 3 && (*list)[static_cast<size_t>(k)].is_number())
             color[k] = (*list)[static_cast<size_t>(k)].get<double>();
     node.area_light_size = Vec2(width, height);
     node.area_light_radiance = glm::clamp(color * number_or(light, "intensity", 1000), Vec3(0), Vec3(1e30));
@@ -120,8 +114,7 @@ void read_nodes(const GltfDocument& document, Scene& scene) {
         node.is_marked_monitor = mark.is_marked;
         node.monitor_channel = mark.channel;
         node.is_two_sided_monitor = mark.is_two_sided;
-        if (mark.is_unclear)
-            add_note(scene, "extras.monitor is none of R, G, B, 0, 1, 2, true; taken as true", place);
+        if (mark.is_unclear) add_note(scene, "extras.monitor is none of R, G, B, 0, 1, 2, true; taken as true", place);
         node.monitor_size = monitor_size(source, place, scene);
         read_area_light(document.json, source, place, scene, node);
         if (source.contains("/extensions/EXT_mesh_gpu_instancing"_json_pointer))
@@ -138,8 +131,7 @@ void place_nodes(const GltfDocument& document, Scene& scene) {
         const tinygltf::Node& source = document.model.nodes[order[i]];
         Node& node = scene.nodes[order[i]];
         const Mat4 local = local_matrix(source, place_name("node", order[i], source.name), scene);
-        node.to_world =
-            node.parent < 0 ? local : scene.nodes[static_cast<size_t>(node.parent)].to_world * local;
+        node.to_world = node.parent < 0 ? local : scene.nodes[static_cast<size_t>(node.parent)].to_world * local;
         for (const int child : source.children) order.push_back(static_cast<size_t>(child));
     }
 }
@@ -157,8 +149,7 @@ void mark_shown(const GltfDocument& document, Scene& scene) {
     }
     for (size_t i = 0; i < shown.size(); ++i) {
         if (std::exchange(scene.nodes[shown[i]].is_in_scene, true)) continue;
-        for (const int child : document.model.nodes[shown[i]].children)
-            shown.push_back(static_cast<size_t>(child));
+        for (const int child : document.model.nodes[shown[i]].children) shown.push_back(static_cast<size_t>(child));
     }
 }
 
@@ -185,11 +176,9 @@ void read_cameras(const GltfDocument& document, Scene& scene) {
 
 void note_document(const GltfDocument& document, Scene& scene) {
     if (!document.model.animations.empty())
-        add_note(scene, "animations ignored", document.model.animations[0].name,
-                 document.model.animations.size());
+        add_note(scene, "animations ignored", document.model.animations[0].name, document.model.animations.size());
     if (!document.model.lights.empty())
-        add_note(scene, "punctual lights ignored", document.model.lights[0].name,
-                 document.model.lights.size());
+        add_note(scene, "punctual lights ignored", document.model.lights[0].name, document.model.lights.size());
 }
 
 }  // namespace
@@ -211,8 +200,7 @@ Scene read_gltf(const std::filesystem::path& path) {
 }
 
 void add_note(std::vector<Note>& notes, const std::string& what, const std::string& where, size_t count) {
-    const auto found =
-        std::find_if(notes.begin(), notes.end(), [&](const Note& note) { return note.what == what; });
+    const auto found = std::find_if(notes.begin(), notes.end(), [&](const Note& note) { return note.what == what; });
     if (found != notes.end()) {
         found->count += count;
     } else {

@@ -31,10 +31,9 @@ struct Member {
 constexpr bool required = true;
 
 constexpr std::array buffer_members{Member{"byteLength", Kind::whole, required}, Member{"uri", Kind::text}};
-constexpr std::array view_members{Member{"buffer", Kind::index, required, "buffers"},
-                                  Member{"byteOffset", Kind::whole},
-                                  Member{"byteLength", Kind::whole, required},
-                                  Member{"byteStride", Kind::whole}, Member{"target", Kind::whole}};
+constexpr std::array view_members{Member{"buffer", Kind::index, required, "buffers"}, Member{"byteOffset", Kind::whole},
+                                  Member{"byteLength", Kind::whole, required}, Member{"byteStride", Kind::whole},
+                                  Member{"target", Kind::whole}};
 constexpr std::array accessor_members{Member{"bufferView", Kind::index, false, "bufferViews"},
                                       Member{"byteOffset", Kind::whole},
                                       Member{"componentType", Kind::whole, required},
@@ -44,20 +43,17 @@ constexpr std::array accessor_members{Member{"bufferView", Kind::index, false, "
                                       Member{"min", Kind::numbers},
                                       Member{"max", Kind::numbers},
                                       Member{"sparse", Kind::object}};
-constexpr std::array sparse_members{Member{"count", Kind::whole, required},
-                                    Member{"indices", Kind::object, required},
+constexpr std::array sparse_members{Member{"count", Kind::whole, required}, Member{"indices", Kind::object, required},
                                     Member{"values", Kind::object, required}};
 constexpr std::array sparse_index_members{Member{"bufferView", Kind::index, required, "bufferViews"},
                                           Member{"byteOffset", Kind::whole},
                                           Member{"componentType", Kind::whole, required}};
 constexpr std::array sparse_value_members{Member{"bufferView", Kind::index, required, "bufferViews"},
                                           Member{"byteOffset", Kind::whole}};
-constexpr std::array mesh_members{Member{"primitives", Kind::objects, required},
-                                  Member{"weights", Kind::numbers}};
-constexpr std::array primitive_members{Member{"attributes", Kind::object, required},
-                                       Member{"indices", Kind::index, false, "accessors"},
-                                       Member{"material", Kind::index, false, "materials"},
-                                       Member{"mode", Kind::whole}, Member{"targets", Kind::objects}};
+constexpr std::array mesh_members{Member{"primitives", Kind::objects, required}, Member{"weights", Kind::numbers}};
+constexpr std::array primitive_members{
+    Member{"attributes", Kind::object, required}, Member{"indices", Kind::index, false, "accessors"},
+    Member{"material", Kind::index, false, "materials"}, Member{"mode", Kind::whole}, Member{"targets", Kind::objects}};
 constexpr std::array node_members{Member{"mesh", Kind::index, false, "meshes"},
                                   Member{"skin", Kind::index, false, "skins"},
                                   Member{"camera", Kind::index, false, "cameras"},
@@ -76,10 +72,10 @@ constexpr std::array material_members{Member{"pbrMetallicRoughness", Kind::objec
                                       Member{"alphaMode", Kind::text},
                                       Member{"alphaCutoff", Kind::number},
                                       Member{"doubleSided", Kind::boolean}};
-constexpr std::array pbr_members{
-    Member{"baseColorFactor", Kind::numbers, false, nullptr, 4}, Member{"metallicFactor", Kind::number},
-    Member{"roughnessFactor", Kind::number}, Member{"baseColorTexture", Kind::object},
-    Member{"metallicRoughnessTexture", Kind::object}};
+constexpr std::array pbr_members{Member{"baseColorFactor", Kind::numbers, false, nullptr, 4},
+                                 Member{"metallicFactor", Kind::number}, Member{"roughnessFactor", Kind::number},
+                                 Member{"baseColorTexture", Kind::object},
+                                 Member{"metallicRoughnessTexture", Kind::object}};
 constexpr std::array texture_use_members{Member{"index", Kind::index, required, "textures"},
                                          Member{"texCoord", Kind::whole}, Member{"scale", Kind::number},
                                          Member{"strength", Kind::number}};
@@ -103,8 +99,7 @@ constexpr std::array animation_sampler_members{Member{"input", Kind::index, requ
                                                Member{"interpolation", Kind::text}};
 constexpr std::array channel_members{Member{"sampler", Kind::whole, required},
                                      Member{"target", Kind::object, required}};
-constexpr std::array target_members{Member{"node", Kind::index, false, "nodes"},
-                                    Member{"path", Kind::text, required}};
+constexpr std::array target_members{Member{"node", Kind::index, false, "nodes"}, Member{"path", Kind::text, required}};
 
 struct Table {
     const char* array;
@@ -151,8 +146,7 @@ class Checker {
             if (!root_.contains(table.array) || table.members.empty()) continue;
             json& array = root_[table.array];
             for (size_t i = 0; i < array.size(); ++i) {
-                const json& name =
-                    array[i].is_object() && array[i].contains("name") ? array[i]["name"] : json();
+                const json& name = array[i].is_object() && array[i].contains("name") ? array[i]["name"] : json();
                 place_ = place_name(table.kind, i, name.is_string() ? name.get<std::string>() : "");
                 if (!name.is_null() && !name.is_string()) refuse("\"name\" must be text");
                 check_members(array[i], table.members);
@@ -193,8 +187,7 @@ class Checker {
             const std::string text = name.get<std::string>();
             if (is_readable_extension(text)) continue;
             const bool is_instancing = text == "EXT_mesh_gpu_instancing";
-            refuse("the file requires the extension " + text +
-                   ", which Surimi cannot read; convert the file: " +
+            refuse("the file requires the extension " + text + ", which Surimi cannot read; convert the file: " +
                    (is_instancing ? "npx @gltf-transform/cli uninstance in.glb out.glb"
                                   : "npx @gltf-transform/cli copy in.glb out.glb"));
         }
@@ -268,8 +261,8 @@ class Checker {
         const auto target = root_.find(member.target);
         const size_t size = target == root_.end() ? 0 : target->size();
         if (index >= size || index > static_cast<uint64_t>(std::numeric_limits<int>::max()))
-            refuse(name + " is " + std::to_string(index) + ", but the file has " + std::to_string(size) +
-                   " " + member.target);
+            refuse(name + " is " + std::to_string(index) + ", but the file has " + std::to_string(size) + " " +
+                   member.target);
     }
 
     void check_texture_uses(json& object, std::initializer_list<const char*> names) {
@@ -289,8 +282,7 @@ class Checker {
             check_texture_uses(object, {"normalTexture", "occlusionTexture", "emissiveTexture"});
             if (!object.contains("pbrMetallicRoughness")) return;
             check_members(object["pbrMetallicRoughness"], pbr_members);
-            check_texture_uses(object["pbrMetallicRoughness"],
-                               {"baseColorTexture", "metallicRoughnessTexture"});
+            check_texture_uses(object["pbrMetallicRoughness"], {"baseColorTexture", "metallicRoughnessTexture"});
         }
         if (array == "cameras" && object.contains("perspective"))
             check_members(object["perspective"], perspective_members);
@@ -356,8 +348,7 @@ class Checker {
                 const size_t c = child.get<size_t>();
                 place_ = place_name("node", c, nodes[c].value("name", ""));
                 if (parent[c] >= 0)
-                    refuse("is a child of node " + std::to_string(parent[c]) + " and of node " +
-                           std::to_string(i));
+                    refuse("is a child of node " + std::to_string(parent[c]) + " and of node " + std::to_string(i));
                 parent[c] = static_cast<int64_t>(i);
             }
         std::vector<size_t> reached;

@@ -2,9 +2,9 @@
 // Is the JSON of a glTF document what it claims to be? Types, indices, node tree, required extensions.
 #pragma once
 
-#include <filesystem>
-
 #include <nlohmann/json.hpp>
+
+#include <filesystem>
 
 namespace surimi {
 

@@ -53,8 +53,8 @@ Container split_glb(std::span<const uint8_t> file, const std::filesystem::path& 
     const size_t length = little_endian(file, 8);
     if (length > file.size())
         fail(path, "glb header",
-             "the file is truncated: it has " + std::to_string(file.size()) + " of " +
-                 std::to_string(length) + " bytes");
+             "the file is truncated: it has " + std::to_string(file.size()) + " of " + std::to_string(length) +
+                 " bytes");
     Container container;
     bool has_json = false;
     for (size_t offset = header; length > offset && length - offset >= chunk_header;) {
@@ -125,8 +125,7 @@ std::string placeholder_json(const json& document) {
 
 void parse_model(GltfDocument& document) {
     const std::string text = placeholder_json(document.json);
-    if (text.size() > std::numeric_limits<unsigned int>::max())
-        fail(document.path, "JSON", "it is larger than 4 GB");
+    if (text.size() > std::numeric_limits<unsigned int>::max()) fail(document.path, "JSON", "it is larger than 4 GB");
     tinygltf::TinyGLTF loader;
     std::string errors;
     std::string warnings;
@@ -153,8 +152,7 @@ bool is_fallback_buffer(const json& document, size_t b) {
     for (const json& view : document.value("bufferViews", json::array())) {
         if (view["buffer"].get<size_t>() != b) continue;
         const json extensions = view.value("extensions", json::object());
-        if (!extensions.contains("EXT_meshopt_compression") &&
-            !extensions.contains("KHR_meshopt_compression"))
+        if (!extensions.contains("EXT_meshopt_compression") && !extensions.contains("KHR_meshopt_compression"))
             return false;
         is_used = true;
     }
@@ -182,8 +180,7 @@ std::vector<uint8_t> load_buffer(const GltfDocument& document, size_t b, const C
         return {};
     }
     std::optional<std::vector<uint8_t>> bytes = read_file(*path);
-    if (!bytes)
-        problem = "its file " + path->string() + " cannot be read; put it there or export the scene as .glb";
+    if (!bytes) problem = "its file " + path->string() + " cannot be read; put it there or export the scene as .glb";
     return bytes ? std::move(*bytes) : std::vector<uint8_t>{};
 }
 
@@ -195,8 +192,7 @@ void load_buffers(GltfDocument& document, const Container& container) {
         std::string problem;
         std::vector<uint8_t> bytes = load_buffer(document, b, container, problem);
         if (problem.empty() && bytes.size() < length)
-            problem = "it is truncated: " + std::to_string(bytes.size()) + " of " + std::to_string(length) +
-                      " bytes";
+            problem = "it is truncated: " + std::to_string(bytes.size()) + " of " + std::to_string(length) + " bytes";
         if (!problem.empty()) {
             if (!is_fallback_buffer(document.json, b))
                 fail(document.path, place_name("buffer", b, buffer.name), problem);
@@ -211,8 +207,7 @@ void load_buffers(GltfDocument& document, const Container& container) {
 
 /// The bytes of an image outside of the buffers; a note and nothing where it cannot be had: geometry matters
 /// more.
-std::vector<uint8_t> load_external_image(GltfDocument& document, const std::string& uri,
-                                         const std::string& place) {
+std::vector<uint8_t> load_external_image(GltfDocument& document, const std::string& uri, const std::string& place) {
     if (is_data_uri(uri)) {
         if (std::optional<std::vector<uint8_t>> bytes = decode_data_uri(uri)) return std::move(*bytes);
         add_note(document.notes, "images whose data URI is malformed are left out", place);
@@ -220,8 +215,7 @@ std::vector<uint8_t> load_external_image(GltfDocument& document, const std::stri
     }
     const std::optional<std::filesystem::path> path = resolve_uri(document.path.parent_path(), uri);
     if (!path) {
-        add_note(document.notes, "images with absolute paths or network addresses are left out",
-                 place + ": " + uri);
+        add_note(document.notes, "images with absolute paths or network addresses are left out", place + ": " + uri);
         return {};
     }
     if (std::optional<std::vector<uint8_t>> bytes = read_file(*path)) return std::move(*bytes);

@@ -1,14 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A glTF file in memory, uncompressed and checked: every index, offset and count in it may be used without
-// fear.
+// A glTF file in memory, uncompressed and checked: every index, offset and count in it may be used.
 #pragma once
-
-#include <cstdint>
-#include <filesystem>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "runtime/scene/scene.h"
 
@@ -21,15 +13,20 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
 namespace surimi {
 
 struct GltfDocument {
     std::filesystem::path path;
-    nlohmann::json
-        json;  ///< as the file has it; tinygltf's values lose nulls, empty objects and large integers
+    nlohmann::json json;    ///< as the file has it; tinygltf's values lose nulls, empty objects and large integers
     tinygltf::Model model;  ///< buffers filled, compressed data decoded and their extensions removed
-    std::vector<std::vector<uint8_t>>
-        external_images;  ///< encoded bytes of images that are not in a buffer view
+    std::vector<std::vector<uint8_t>> external_images;  ///< encoded bytes of images that are not in a buffer view
     std::vector<Note> notes;
 };
 

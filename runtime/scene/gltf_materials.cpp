@@ -54,8 +54,7 @@ Wrap wrap_mode(int code) {
 Mat3 uv_transform(const json& extension) {
     const auto pair = [&](const char* key, const Vec2& fallback) {
         const json& list = member(extension, key);
-        if (!list.is_array() || list.size() != 2 || !list[0].is_number() || !list[1].is_number())
-            return fallback;
+        if (!list.is_array() || list.size() != 2 || !list[0].is_number() || !list[1].is_number()) return fallback;
         return Vec2(list[0].get<double>(), list[1].get<double>());
     };
     const Vec2 offset = pair("offset", Vec2(0));
@@ -71,8 +70,7 @@ int texture_image(const json& texture, size_t image_count) {
     const int limit = static_cast<int>(image_count);
     const int source = whole_or(texture, "source", -1, limit);
     if (source >= 0) return source;
-    for (const char* name :
-         {"KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif", "MSFT_texture_dds"}) {
+    for (const char* name : {"KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif", "MSFT_texture_dds"}) {
         const int image = whole_or(member(member(texture, "extensions"), name), "source", -1, limit);
         if (image >= 0) return image;
     }
@@ -128,8 +126,7 @@ Material read_material(const GltfDocument& document, const json& source) {
     const json& normal = member(source, "normalTexture");
     material.normal_texture = read_texture_use(document, normal);
     material.normal_scale = number_or(normal, "scale", 1);
-    const double strength =
-        number_or(member(extensions, "KHR_materials_emissive_strength"), "emissiveStrength", 1);
+    const double strength = number_or(member(extensions, "KHR_materials_emissive_strength"), "emissiveStrength", 1);
     // A finite ceiling, far above the sun's 1.6e9 nits, keeps sums and products of it finite.
     constexpr double brightest = 1e30;
     const Vec3 factor = glm::clamp(vector_or(source, "emissiveFactor", Vec3(0)), Vec3(0), Vec3(brightest));
@@ -141,8 +138,7 @@ Material read_material(const GltfDocument& document, const json& source) {
     material.alpha_cutoff = number_or(source, "alphaCutoff", 0.5);
     material.double_sided = member(source, "doubleSided") == true;
     material.unlit = extensions.is_object() && extensions.contains("KHR_materials_unlit");
-    const double transmission =
-        number_or(member(extensions, "KHR_materials_transmission"), "transmissionFactor", 0);
+    const double transmission = number_or(member(extensions, "KHR_materials_transmission"), "transmissionFactor", 0);
     material.transmission = std::clamp(transmission, 0.0, 1.0);
     read_visibility_map(document, source, material);
     return material;
@@ -153,8 +149,7 @@ void note_ignored_extensions(const json& extensions, const std::string& place, S
         "KHR_materials_emissive_strength", "KHR_materials_unlit", "KHR_materials_transmission",
         "KHR_materials_clearcoat"};  // clearcoat: ignored where it is not the carrier
     static const std::set<std::string> matters{"KHR_materials_pbrSpecularGlossiness", "KHR_materials_volume",
-                                               "KHR_materials_diffuse_transmission",
-                                               "KHR_materials_displacement"};
+                                               "KHR_materials_diffuse_transmission", "KHR_materials_displacement"};
     if (!extensions.is_object()) return;
     for (const auto& item : extensions.items())
         if (read.count(item.key()) == 0 && matters.count(item.key()) > 0)
@@ -190,15 +185,14 @@ std::set<size_t> used_images(const Scene& scene) {
 MonitorMark read_monitor_mark(const json& object) {
     MonitorMark mark;
     const json& extras = member(object, "extras");
-    mark.is_two_sided =
-        member(extras, "monitor_two_sided") == true || number_or(extras, "monitor_two_sided", 0) == 1;
+    mark.is_two_sided = member(extras, "monitor_two_sided") == true || number_or(extras, "monitor_two_sided", 0) == 1;
     const json& value = member(extras, "monitor");
     if (value.is_null() || value == false) return mark;
     mark.is_marked = true;
     const std::string text = value.is_string() ? value.get<std::string>() : "";
     for (int channel = 0; channel < 3; ++channel)
-        if (value == channel || text == std::string(1, "RGB"[channel]) ||
-            text == std::string(1, "rgb"[channel]) || text == std::string(1, "012"[channel]))
+        if (value == channel || text == std::string(1, "RGB"[channel]) || text == std::string(1, "rgb"[channel]) ||
+            text == std::string(1, "012"[channel]))
             mark.channel = channel;
     mark.is_unclear = mark.channel < 0 && value != true && text != "true";
     return mark;
@@ -214,8 +208,7 @@ void read_materials(const GltfDocument& document, Scene& scene) {
         material.is_marked_monitor = mark.is_marked;
         material.monitor_channel = mark.channel;
         material.is_two_sided_monitor = mark.is_two_sided;
-        if (mark.is_unclear)
-            add_note(scene, "extras.monitor is none of R, G, B, 0, 1, 2, true; taken as true", place);
+        if (mark.is_unclear) add_note(scene, "extras.monitor is none of R, G, B, 0, 1, 2, true; taken as true", place);
         note_ignored_extensions(member(source, "extensions"), place, scene);
         scene.materials.push_back(std::move(material));
     }

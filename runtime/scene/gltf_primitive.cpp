@@ -39,8 +39,7 @@ class PrimitiveReader {
         }
         read_positions(data);
         if (primitive_.attributes.count("NORMAL") > 0)
-            data.normals =
-                read_vectors<Vec3>("NORMAL", primitive_.attributes.at("NORMAL"), data.positions.size());
+            data.normals = read_vectors<Vec3>("NORMAL", primitive_.attributes.at("NORMAL"), data.positions.size());
         apply_targets(data, weights);
         read_uv_sets(data);
         read_influences(data);
@@ -50,8 +49,7 @@ class PrimitiveReader {
 
   private:
     [[noreturn]] void refuse(const std::string& attribute, int accessor, const std::string& what) const {
-        fail(document_.path, place_ + ", " + attribute + ", " + accessor_name(document_.model, accessor),
-             what);
+        fail(document_.path, place_ + ", " + attribute + ", " + accessor_name(document_.model, accessor), what);
     }
 
     const tinygltf::Accessor& accessor(int index) const {
@@ -63,8 +61,7 @@ class PrimitiveReader {
     std::vector<Vector> read_vectors(const std::string& attribute, int index, size_t count) const {
         constexpr auto length = static_cast<size_t>(Vector::length());
         const int type = accessor(index).type;
-        if (type != static_cast<int>(length))
-            refuse(attribute, index, "must be VEC" + std::to_string(length));
+        if (type != static_cast<int>(length)) refuse(attribute, index, "must be VEC" + std::to_string(length));
         if (count > 0 && accessor(index).count != count)
             refuse(attribute, index,
                    "has " + std::to_string(accessor(index).count) + " elements, but the primitive has " +
@@ -89,8 +86,7 @@ class PrimitiveReader {
 
     /// Wrong bounds harm nobody here, but viewers cull by them.
     void check_bounds(const PrimitiveData& data, const tinygltf::Accessor& positions) {
-        if (positions.minValues.size() != 3 || positions.maxValues.size() != 3 || positions.normalized)
-            return;
+        if (positions.minValues.size() != 3 || positions.maxValues.size() != 3 || positions.normalized) return;
         Vec3 low{INFINITY};
         Vec3 high{-INFINITY};
         for (const Vec3& p : data.positions) {
@@ -123,12 +119,10 @@ class PrimitiveReader {
                     std::vector<Vec3>& values) {
         const auto found = target.find(attribute);
         if (found == target.end()) return;
-        const std::vector<Vec3> offsets =
-            read_vectors<Vec3>("target " + attribute, found->second, values.size());
+        const std::vector<Vec3> offsets = read_vectors<Vec3>("target " + attribute, found->second, values.size());
         for (size_t v = 0; v < values.size(); ++v) {
             if (attribute == "POSITION" && !is_finite(offsets[v]))
-                refuse("target " + attribute, found->second,
-                       "vertex " + std::to_string(v) + " is not finite");
+                refuse("target " + attribute, found->second, "vertex " + std::to_string(v) + " is not finite");
             values[v] += weight * offsets[v];
         }
     }
@@ -200,8 +194,8 @@ class PrimitiveReader {
         for (size_t i = 0; i < indices.size(); ++i)
             if (indices[i] >= vertex_count)
                 refuse("indices", primitive_.indices,
-                       "index " + std::to_string(i) + " is " + std::to_string(indices[i]) +
-                           ", but the primitive has " + std::to_string(vertex_count) + " vertices");
+                       "index " + std::to_string(i) + " is " + std::to_string(indices[i]) + ", but the primitive has " +
+                           std::to_string(vertex_count) + " vertices");
         return indices;
     }
 
@@ -212,8 +206,7 @@ class PrimitiveReader {
         if (primitive_.mode == TINYGLTF_MODE_TRIANGLES) {
             for (size_t i = 0; i + 2 < n; i += 3)
                 data.triangles.push_back({indices[i], indices[i + 1], indices[i + 2]});
-            if (n % 3 != 0)
-                add_note(notes_, "left-over indices of incomplete triangles dropped", place_, n % 3);
+            if (n % 3 != 0) add_note(notes_, "left-over indices of incomplete triangles dropped", place_, n % 3);
             return;
         }
         const bool is_strip = primitive_.mode == TINYGLTF_MODE_TRIANGLE_STRIP;

@@ -50,8 +50,7 @@ class Placer {
         }
         const auto [entry, is_new] = shared_.try_emplace({mesh, p});
         if (is_new)
-            entry->second =
-                read_primitive(document_, mesh, p, document_.model.meshes[mesh].weights, scene_.notes);
+            entry->second = read_primitive(document_, mesh, p, document_.model.meshes[mesh].weights, scene_.notes);
         return entry->second;
     }
 
@@ -64,8 +63,7 @@ class Placer {
         triangle_total_ += data.triangles.size();
         if (triangle_total_ > most_triangles)
             fail(document_.path, place_name("node", n, node.name),
-                 "with it the scene has more than " + std::to_string(most_triangles) +
-                     " triangles; split the scene");
+                 "with it the scene has more than " + std::to_string(most_triangles) + " triangles; split the scene");
         Surface surface;
         surface.name = node.name + (primitive_count > 1 ? "/" + std::to_string(p) : "");
         surface.node = static_cast<int>(n);
@@ -99,8 +97,7 @@ class Placer {
         for (size_t j = 0; j < skin.joints.size(); ++j) {
             Mat4 bind{1};
             if (!inverse_bind.empty())
-                for (int c = 0; c < 16; ++c)
-                    bind[c / 4][c % 4] = inverse_bind[j * 16 + static_cast<size_t>(c)];
+                for (int c = 0; c < 16; ++c) bind[c / 4][c % 4] = inverse_bind[j * 16 + static_cast<size_t>(c)];
             matrices.push_back(scene_.nodes[static_cast<size_t>(skin.joints[j])].to_world * bind);
         }
         return matrices;
@@ -206,8 +203,7 @@ class Placer {
                                            surface.positions[corners[2]]);
         for (const auto& [v, sum] : sums) surface.normals[v] = normalize_or(sum, Vec3(0, 0, 1));
         if (!sums.empty())
-            add_note(scene_, "zero or infinite normals replaced by those of the triangles", place_,
-                     sums.size());
+            add_note(scene_, "zero or infinite normals replaced by those of the triangles", place_, sums.size());
         for (Vec3& normal : surface.normals)
             if (normal == Vec3(0)) normal = Vec3(0, 0, 1);
     }

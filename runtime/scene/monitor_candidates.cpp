@@ -133,11 +133,9 @@ std::vector<size_t> CandidateFinder::free_surfaces_below(size_t node) const {
 }
 
 /// A screen is often one mesh with its case; then the part that shines is meant.
-MonitorCandidate CandidateFinder::from_surfaces(size_t node, std::vector<size_t> surfaces,
-                                                const std::string& reason) {
+MonitorCandidate CandidateFinder::from_surfaces(size_t node, std::vector<size_t> surfaces, const std::string& reason) {
     const std::string& name = scene_.nodes[node].name;
-    const auto dark =
-        std::stable_partition(surfaces.begin(), surfaces.end(), [&](size_t s) { return is_emissive(s); });
+    const auto dark = std::stable_partition(surfaces.begin(), surfaces.end(), [&](size_t s) { return is_emissive(s); });
     if (dark != surfaces.begin() && dark != surfaces.end()) {
         add_note(scene_, "parts of a monitor's mesh that do not shine are not part of it", name,
                  static_cast<size_t>(surfaces.end() - dark));
@@ -190,8 +188,7 @@ std::optional<MonitorCandidate> CandidateFinder::from_node(size_t n, const std::
 }
 
 /// Nodes with a mesh first: a group called "Monitors" must not swallow the "Monitor_R" in it.
-std::vector<MonitorCandidate> CandidateFinder::from_nodes(const std::vector<size_t>& nodes,
-                                                          const std::string& reason) {
+std::vector<MonitorCandidate> CandidateFinder::from_nodes(const std::vector<size_t>& nodes, const std::string& reason) {
     std::vector<MonitorCandidate> candidates;
     for (const bool has_mesh : {true, false})
         for (const size_t n : nodes) {
@@ -204,8 +201,7 @@ std::vector<MonitorCandidate> CandidateFinder::from_nodes(const std::vector<size
 
 /// One candidate for each material on each node.
 template <class Predicate>
-std::vector<MonitorCandidate> CandidateFinder::from_materials(const Predicate& is_wanted,
-                                                              const std::string& reason) {
+std::vector<MonitorCandidate> CandidateFinder::from_materials(const Predicate& is_wanted, const std::string& reason) {
     std::vector<MonitorCandidate> candidates;
     for (size_t n = 0; n < scene_.nodes.size(); ++n) {
         std::map<int, std::vector<size_t>> by_material;
@@ -241,8 +237,8 @@ std::vector<MonitorCandidate> CandidateFinder::selected(const std::vector<Monito
         const std::string where = scene_.path.string() + ": monitor \"" + selector.node + "\": ";
         if (found.empty() && nodes.empty())
             throw Error(ErrorKind::usage, where + "no node of the scene has this name; the nearest is \"" +
-                                              nearest_name(scene_, selector.node) +
-                                              "\". List them: surimi inspect " + scene_.path.string());
+                                              nearest_name(scene_, selector.node) + "\". List them: surimi inspect " +
+                                              scene_.path.string());
         if (found.empty())
             throw Error(ErrorKind::usage,
                         where +
@@ -257,8 +253,7 @@ std::vector<MonitorCandidate> CandidateFinder::selected(const std::vector<Monito
     return all;
 }
 
-std::vector<MonitorCandidate> CandidateFinder::from_rectangles(
-    const std::vector<MonitorRectangles>& monitors) const {
+std::vector<MonitorCandidate> CandidateFinder::from_rectangles(const std::vector<MonitorRectangles>& monitors) const {
     std::vector<MonitorCandidate> candidates;
     for (size_t m = 0; m < monitors.size(); ++m) {
         const MonitorRectangles& source = monitors[m];
@@ -273,9 +268,8 @@ std::vector<MonitorCandidate> CandidateFinder::from_rectangles(
                 make_rectangle(r.center, r.half_u, r.half_v, glm::cross(r.half_u, r.half_v)));
             const double size = area(candidate.monitor.panels.back());
             if (!is_finite(r.center) || !std::isfinite(size) || !(size > 0))
-                throw Error(ErrorKind::usage,
-                            "monitor \"" + candidate.monitor.name +
-                                "\" of the configuration: half_u and half_v must span an area");
+                throw Error(ErrorKind::usage, "monitor \"" + candidate.monitor.name +
+                                                  "\" of the configuration: half_u and half_v must span an area");
         }
         if (candidate.monitor.panels.empty())
             throw Error(ErrorKind::usage,
@@ -294,8 +288,7 @@ void CandidateFinder::claim_coinciding_quads(size_t light, MonitorCandidate& can
     const int parent = scene_.nodes[light].parent;
     if (parent >= 0) family.push_back(static_cast<size_t>(parent));
     for (size_t n = 0; n < scene_.nodes.size(); ++n)
-        if (n != light && scene_.nodes[n].is_in_scene && scene_.nodes[n].parent == parent)
-            family.push_back(n);
+        if (n != light && scene_.nodes[n].is_in_scene && scene_.nodes[n].parent == parent) family.push_back(n);
     for (const size_t n : family)
         for (const size_t s : free_surfaces(n)) {
             // A rectangle has two triangles, a finely modelled one perhaps hundreds; whole rooms need not be

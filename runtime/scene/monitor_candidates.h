@@ -2,19 +2,19 @@
 // What in a scene could be a monitor, rule by rule; find_monitors chooses.
 #pragma once
 
+#include "runtime/scene/monitors.h"
+
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "runtime/scene/monitors.h"
-
 namespace surimi {
 
 struct MonitorCandidate {
-    Monitor monitor;             ///< its channel is not decided yet
-    std::optional<int> channel;  ///< as the user or the file states it
-    bool is_number_one = false;  ///< the file states it as 1, which is also how Blender writes true
-    std::string label;  ///< where a suffix _R, _G, _B is looked for: the name of the node or the material
+    Monitor monitor;               ///< its channel is not decided yet
+    std::optional<int> channel;    ///< as the user or the file states it
+    bool is_number_one = false;    ///< the file states it as 1, which is also how Blender writes true
+    std::string label;             ///< where a suffix _R, _G, _B is looked for: the name of the node or the material
     std::vector<size_t> surfaces;  ///< of Scene::surfaces
 };
 
@@ -30,8 +30,7 @@ class CandidateFinder {
     explicit CandidateFinder(Scene& scene);
 
     /// Throws Error(usage) for a selector that matches nothing, or nothing with an area.
-    std::vector<MonitorCandidate> selected(const std::vector<MonitorSelector>& selectors,
-                                           const std::string& rule);
+    std::vector<MonitorCandidate> selected(const std::vector<MonitorSelector>& selectors, const std::string& rule);
     std::vector<MonitorCandidate> from_rectangles(const std::vector<MonitorRectangles>& monitors) const;
     std::vector<MonitorCandidate> area_lights();
     std::vector<MonitorCandidate> marked();

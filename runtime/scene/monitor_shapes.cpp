@@ -22,8 +22,7 @@ std::vector<Triangle> triangles_of(const Scene& scene, const std::vector<size_t>
 
 Polygon make_rectangle(const Vec3& center, const Vec3& u, const Vec3& v, const Vec3& front) {
     Polygon polygon{{center - u - v, center + u - v, center + u + v, center - u + v}};
-    if (glm::dot(front_normal(polygon), front) < 0)
-        std::reverse(polygon.corners.begin(), polygon.corners.end());
+    if (glm::dot(front_normal(polygon), front) < 0) std::reverse(polygon.corners.begin(), polygon.corners.end());
     return polygon;
 }
 
@@ -46,9 +45,8 @@ bool do_coincide(const Polygon& a, const Polygon& b) {
     if (a.corners.size() != b.corners.size()) return false;
     const double size = glm::length(a.corners[2] - a.corners[0]);
     return std::all_of(a.corners.begin(), a.corners.end(), [&](const Vec3& corner) {
-        return std::any_of(b.corners.begin(), b.corners.end(), [&](const Vec3& other) {
-            return glm::length(corner - other) <= coincidence * size;
-        });
+        return std::any_of(b.corners.begin(), b.corners.end(),
+                           [&](const Vec3& other) { return glm::length(corner - other) <= coincidence * size; });
     });
 }
 

@@ -2,10 +2,10 @@
 // Monitors as geometry: the triangles of surfaces, and the rectangles that nodes without a mesh describe.
 #pragma once
 
-#include <vector>
-
 #include "runtime/scene/polygons.h"
 #include "runtime/scene/scene.h"
+
+#include <vector>
 
 namespace surimi {
 

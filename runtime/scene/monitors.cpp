@@ -33,17 +33,16 @@ std::string listing(Candidates candidates) {
     std::stable_sort(candidates.begin(), candidates.end(),
                      [](const MonitorCandidate& a, const MonitorCandidate& b) { return flux(a) > flux(b); });
     std::string text;
-    std::string command = "surimi bake ... ";
+    std::string command;
     for (size_t i = 0; i < candidates.size(); ++i) {
         std::array<char, 96> numbers{};
         std::snprintf(numbers.data(), numbers.size(), "flux %.4g lm, area %.4g m2", flux(candidates[i]),
                       area(candidates[i].monitor));
         text += "\n  " + candidates[i].monitor.name + ": " + numbers.data();
         if (i < most_monitors)
-            command +=
-                (i > 0 ? " " : "") + std::string("--monitor ") + quoted_for_shell(candidates[i].monitor.name);
+            command += (i > 0 ? " " : "") + std::string("--monitor ") + quoted_for_shell(candidates[i].monitor.name);
     }
-    return text + "\nChoose, for example: " + command.substr(std::string("surimi bake ... ").size());
+    return text + "\nChoose, for example: " + command;
 }
 
 /// The channel that a name ends in: Monitor_R, tv.g, Screen B.001.
@@ -52,8 +51,7 @@ std::optional<int> suffix_channel(std::string name) {
     const auto is_digit = [&](size_t i) { return std::isdigit(static_cast<unsigned char>(name[i])) != 0; };
     if (n > 4 && name[n - 4] == '.' && is_digit(n - 3) && is_digit(n - 2) && is_digit(n - 1))
         name.resize(n - 4);  // Blender's copies
-    if (name.size() < 3 || std::string(" ._-").find(name[name.size() - 2]) == std::string::npos)
-        return std::nullopt;
+    if (name.size() < 3 || std::string(" ._-").find(name[name.size() - 2]) == std::string::npos) return std::nullopt;
     const size_t channel =
         std::string("RGB").find(static_cast<char>(std::toupper(static_cast<unsigned char>(name.back()))));
     if (channel == std::string::npos) return std::nullopt;
@@ -63,12 +61,12 @@ std::optional<int> suffix_channel(std::string name) {
 /// Blender's custom properties know no booleans: true arrives as 1, which would be channel G. Several
 /// monitors that all claim 1 mean true.
 void forget_boolean_channels(Candidates& candidates, Scene& scene) {
-    const bool are_all_one = std::all_of(candidates.begin(), candidates.end(),
-                                         [](const MonitorCandidate& c) { return c.is_number_one; });
+    const bool are_all_one =
+        std::all_of(candidates.begin(), candidates.end(), [](const MonitorCandidate& c) { return c.is_number_one; });
     if (candidates.size() < 2 || !are_all_one) return;
     for (MonitorCandidate& candidate : candidates) candidate.channel.reset();
-    add_note(scene, "extras.monitor = 1 on every monitor taken as true, not as channel G",
-             candidates[0].monitor.name, candidates.size());
+    add_note(scene, "extras.monitor = 1 on every monitor taken as true, not as channel G", candidates[0].monitor.name,
+             candidates.size());
 }
 
 /// Suffixes count only when no two agree and none is taken: else they mean something else.
@@ -78,8 +76,7 @@ void use_suffixes(Candidates& candidates) {
         const std::optional<int> channel = c.channel ? c.channel : suffix_channel(c.label);
         if (channel) claimed.insert(*channel);
     }
-    if (std::any_of(claimed.begin(), claimed.end(), [&](int channel) { return claimed.count(channel) > 1; }))
-        return;
+    if (std::any_of(claimed.begin(), claimed.end(), [&](int channel) { return claimed.count(channel) > 1; })) return;
     for (MonitorCandidate& c : candidates)
         if (!c.channel) c.channel = suffix_channel(c.label);
 }
@@ -91,9 +88,9 @@ void assign_channels(Candidates& candidates, const Scene& scene) {
         if (!c.channel) continue;
         const MonitorCandidate*& other = owner[static_cast<size_t>(*c.channel)];
         if (other != nullptr)
-            throw Error(ErrorKind::nothing_to_bake,
-                        scene.path.string() + ": " + other->monitor.name + " and " + c.monitor.name +
-                            " both claim channel " + channel_letters[*c.channel] + ":" + listing(candidates));
+            throw Error(ErrorKind::nothing_to_bake, scene.path.string() + ": " + other->monitor.name + " and " +
+                                                        c.monitor.name + " both claim channel " +
+                                                        channel_letters[*c.channel] + ":" + listing(candidates));
         other = &c;
     }
     for (MonitorCandidate& c : candidates) {
@@ -111,8 +108,7 @@ void make_names_unique(Candidates& candidates) {
     std::set<std::string> taken;
     for (MonitorCandidate& c : candidates) {
         const std::string base = c.monitor.name;
-        for (int n = 2; !taken.insert(c.monitor.name).second; ++n)
-            c.monitor.name = base + "_" + std::to_string(n);
+        for (int n = 2; !taken.insert(c.monitor.name).second; ++n) c.monitor.name = base + "_" + std::to_string(n);
     }
 }
 
@@ -142,8 +138,7 @@ void adopt(Candidates& candidates, Scene& scene) {
     for (const Note& note : scene.notes) {
         const std::string prefix = "emissive, but no monitor: ";
         if (note.what.rfind(prefix, 0) != 0 || listed == 10) continue;
-        if (listed++ == 0)
-            message += " These shine, but are no rectangles; --monitor takes them all the same:";
+        if (listed++ == 0) message += " These shine, but are no rectangles; --monitor takes them all the same:";
         const std::string name = note.what.substr(prefix.size());
         message += "\n  " + name + ": " + note.where + "  (--monitor " + quoted_for_shell(name) + ")";
     }
@@ -171,9 +166,8 @@ MonitorSelector parse_monitor_selector(const std::string& text) {
     const size_t equals = text.rfind('=');
     selector.node = text.substr(0, equals);
     if (selector.node.empty())
-        throw Error(
-            ErrorKind::usage,
-            "--monitor \"" + text + "\": a node name is missing; write --monitor NODE or --monitor NODE=R");
+        throw Error(ErrorKind::usage,
+                    "--monitor \"" + text + "\": a node name is missing; write --monitor NODE or --monitor NODE=R");
     if (equals == std::string::npos) return selector;
     const std::string letter = text.substr(equals + 1);
     const size_t channel = letter.size() == 1 ? std::string("RGBrgb").find(letter) : std::string::npos;
@@ -192,15 +186,13 @@ void find_monitors(Scene& scene, const MonitorRequest& request) {
     Candidates candidates = first_rule(finder, request, is_automatic);
     if (candidates.empty()) fail_without_monitor(scene);
     if (candidates.size() > most_monitors)
-        throw Error(ErrorKind::nothing_to_bake,
-                    scene.path.string() + ": " + std::to_string(candidates.size()) + " monitors found (" +
-                        candidates[0].monitor.reason +
-                        ", ...), but a map has three channels:" + listing(candidates));
+        throw Error(ErrorKind::nothing_to_bake, scene.path.string() + ": " + std::to_string(candidates.size()) +
+                                                    " monitors found (" + candidates[0].monitor.reason +
+                                                    ", ...), but a map has three channels:" + listing(candidates));
     if (!is_automatic) {  // automatic ones keep their order, by flux
-        std::stable_sort(candidates.begin(), candidates.end(),
-                         [](const MonitorCandidate& a, const MonitorCandidate& b) {
-                             return a.monitor.name < b.monitor.name;
-                         });
+        std::stable_sort(
+            candidates.begin(), candidates.end(),
+            [](const MonitorCandidate& a, const MonitorCandidate& b) { return a.monitor.name < b.monitor.name; });
         forget_boolean_channels(candidates, scene);
         use_suffixes(candidates);
     }

@@ -97,8 +97,7 @@ class PointNumbers {
     size_t number_of(const Vec3& p) {
         const std::array<int64_t, 3> cell{cell_of(p.x), cell_of(p.y), cell_of(p.z)};
         for (int64_t i = 0; i < 27; ++i) {  // the cell and its neighbours
-            const auto found =
-                cells_.find({cell[0] + i % 3 - 1, cell[1] + i / 3 % 3 - 1, cell[2] + i / 9 - 1});
+            const auto found = cells_.find({cell[0] + i % 3 - 1, cell[1] + i / 3 % 3 - 1, cell[2] + i / 9 - 1});
             if (found != cells_.end() && glm::length(found->second.first - p) <= tolerance_)
                 return found->second.second;
         }
@@ -135,8 +134,7 @@ class FlatParts {
         PointNumbers numbers(same_point * size_);
         for (size_t t = 0; t < triangles.size(); ++t) {
             for (size_t k = 0; k < 3; ++k) corners_[t][k] = numbers.number_of(triangles[t][k]);
-            for (size_t k = 0; k < 3; ++k)
-                at_edge_.emplace(std::pair(corners_[t][k], corners_[t][(k + 1) % 3]), t);
+            for (size_t k = 0; k < 3; ++k) at_edge_.emplace(std::pair(corners_[t][k], corners_[t][(k + 1) % 3]), t);
         }
     }
 
@@ -170,8 +168,7 @@ class FlatParts {
         const auto [first, last] = at_edge_.equal_range(edge);
         for (auto it = first; it != last; ++it) {
             const size_t t = it->second;
-            if (is_taken_[t] || !is_in_plane_of(triangles_[seed], triangles_[t], same_plane * size_))
-                continue;
+            if (is_taken_[t] || !is_in_plane_of(triangles_[seed], triangles_[t], same_plane * size_)) continue;
             is_taken_[t] = true;
             part.push_back(t);
         }

@@ -2,12 +2,12 @@
 // Triangles -> as few planar convex polygons as their shape allows, of the same area.
 #pragma once
 
+#include "runtime/base/math.h"
+#include "runtime/light/monitor.h"
+
 #include <array>
 #include <optional>
 #include <vector>
-
-#include "runtime/base/math.h"
-#include "runtime/light/monitor.h"
 
 namespace surimi {
 

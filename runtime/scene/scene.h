@@ -18,8 +18,8 @@ enum class Wrap { repeat, mirrored_repeat, clamp };
 
 /// A texture as a material uses it. KHR_texture_transform is folded into `transform`.
 struct TextureUse {
-    int image = -1;   ///< index into Scene::images; -1: no texture
-    int uv_set = 0;   ///< TEXCOORD_n
+    int image = -1;  ///< index into Scene::images; -1: no texture
+    int uv_set = 0;  ///< TEXCOORD_n
     Wrap wrap_s = Wrap::repeat;
     Wrap wrap_t = Wrap::repeat;
     Mat3 transform{1};  ///< uv (homogeneous) as stored -> uv to look up
@@ -29,54 +29,56 @@ enum class AlphaMode { opaque, mask, blend };
 
 struct Material {
     std::string name;
-    Vec4 base_color{1};              ///< linear
-    TextureUse base_color_texture;   ///< sRGB-encoded colour, linear alpha
-    double roughness = 1;            ///< perceptual, in [0, 1]
+    Vec4 base_color{1};             ///< linear
+    TextureUse base_color_texture;  ///< sRGB-encoded colour, linear alpha
+    double roughness = 1;           ///< perceptual, in [0, 1]
     double metallic = 1;
     TextureUse metallic_roughness_texture;  ///< G roughness, B metallic, linear
     TextureUse normal_texture;
     double normal_scale = 1;
-    Vec3 emissive{0};                ///< factor times KHR_materials_emissive_strength, nits
-    TextureUse emissive_texture;     ///< sRGB-encoded
+    Vec3 emissive{0};             ///< factor times KHR_materials_emissive_strength, nits
+    TextureUse emissive_texture;  ///< sRGB-encoded
     AlphaMode alpha_mode = AlphaMode::opaque;
     double alpha_cutoff = 0.5;
     bool double_sided = false;
     bool unlit = false;
-    double transmission = 0;         ///< KHR_materials_transmission factor
-    bool is_marked_monitor = false;  ///< extras.monitor is there and is not false
-    int monitor_channel = -1;        ///< from extras.monitor, when it names one: 0, 1, 2
+    double transmission = 0;            ///< KHR_materials_transmission factor
+    bool is_marked_monitor = false;     ///< extras.monitor is there and is not false
+    int monitor_channel = -1;           ///< from extras.monitor, when it names one: 0, 1, 2
     bool is_two_sided_monitor = false;  ///< extras.monitor_two_sided
-    TextureUse visibility_map;       ///< the map that a baked file carries (extras.visibilityMap and its carrier)
+    TextureUse visibility_map;          ///< the map that a baked file carries (extras.visibilityMap and its carrier)
     std::array<std::string, 3> visibility_channels;  ///< monitor of R, G, B; empty where unused
-    bool visibility_is_srgb = false;  ///< the carried map is sRGB-encoded
+    bool visibility_is_srgb = false;                 ///< the carried map is sRGB-encoded
 };
 
 struct Node {
-    std::string name;       ///< never empty: unnamed nodes are called node_<index>
+    std::string name;  ///< never empty: unnamed nodes are called node_<index>
     int parent = -1;
     int mesh = -1;
     Mat4 to_world{1};
-    bool is_in_scene = false;  ///< reached from the scene that is shown
+    bool is_in_scene = false;        ///< reached from the scene that is shown
     bool is_marked_monitor = false;  ///< extras.monitor
     int monitor_channel = -1;
     bool is_two_sided_monitor = false;
-    Vec2 monitor_size{0};   ///< extras.monitor_size: an empty node that is a monitor of this width and height, facing its +z
-    Vec2 area_light_size{0};      ///< EXT_lights_area rectangle: width and height before the node's scale, facing its -z
+    Vec2 monitor_size{
+        0};  ///< extras.monitor_size: an empty node that is a monitor of this width and height, facing its +z
+    Vec2 area_light_size{0};  ///< EXT_lights_area rectangle: width and height before the node's scale, facing its -z
     Vec3 area_light_radiance{0};  ///< of that light: linear RGB, nits
 };
 
-/// One primitive of one mesh as one node places it: triangles in world space. Every placement is its own receiver.
-/// Triangles run counter-clockwise seen from the front; mirrored nodes are accounted for. None has zero area.
+/// One primitive of one mesh as one node places it: triangles in world space. Every placement is its own
+/// receiver. Triangles run counter-clockwise seen from the front; mirrored nodes are accounted for. None has
+/// zero area.
 struct Surface {
     std::string name;  ///< node name, and "/primitive" where the mesh has several
     int node = 0;
     int mesh = 0;
     int primitive = 0;
-    int material = -1;  ///< index into Scene::materials; -1: glTF's default material
-    int monitor = -1;   ///< index into Scene::monitors when this surface is (part of) one
+    int material = -1;            ///< index into Scene::materials; -1: glTF's default material
+    int monitor = -1;             ///< index into Scene::monitors when this surface is (part of) one
     std::vector<Vec3> positions;  ///< metres; one for each vertex of the primitive, in its order
-    std::vector<Vec3> normals;    ///< unit; same length. Flat ones where the file has none: then vertices are not shared
-    std::vector<std::vector<Vec2>> uv_sets;  ///< TEXCOORD_0, 1, ...; each of the length of positions
+    std::vector<Vec3> normals;  ///< unit; same length. Flat ones where the file has none: then vertices are not shared
+    std::vector<std::vector<Vec2>> uv_sets;          ///< TEXCOORD_0, 1, ...; each of the length of positions
     std::vector<std::array<uint32_t, 3>> triangles;  ///< vertex indices
     std::vector<uint32_t> source_triangle;  ///< for each triangle, its number in the primitive as the file orders them
     std::vector<uint32_t> source_vertex;    ///< for each vertex, its number in the primitive's accessors
@@ -84,14 +86,14 @@ struct Surface {
 
 struct Camera {
     std::string name;
-    Mat4 to_world{1};     ///< looks along -z, up is +y
-    double yfov = 0.8;    ///< radians
-    double aspect = 0;    ///< width / height; 0: not given
+    Mat4 to_world{1};   ///< looks along -z, up is +y
+    double yfov = 0.8;  ///< radians
+    double aspect = 0;  ///< width / height; 0: not given
 };
 
 /// Something that was dropped, repaired or read in a reduced form; shown to the user.
 struct Note {
-    std::string what;   ///< "zero-area triangles dropped"
+    std::string what;  ///< "zero-area triangles dropped"
     size_t count = 1;
     std::string where;  ///< the first place where it happened
 };

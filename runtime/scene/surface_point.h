@@ -13,7 +13,7 @@ struct TriangleRef {
 
 struct SurfacePoint {
     TriangleRef triangle;
-    Vec3 barycentric{1, 0, 0};       ///< weights of the triangle's corners
+    Vec3 barycentric{1, 0, 0};  ///< weights of the triangle's corners
     Vec3 position{0};
     Vec3 normal{0, 0, 1};            ///< unit, interpolated from the vertices
     Vec3 geometric_normal{0, 0, 1};  ///< unit, of the triangle's front side
@@ -31,7 +31,8 @@ inline SurfacePoint surface_point(const Scene& scene, const TriangleRef& where, 
     point.barycentric = barycentric;
     point.position = barycentric.x * a + barycentric.y * b + barycentric.z * c;
     point.geometric_normal = normalize_or(area_normal(a, b, c), n[i]);
-    point.normal = normalize_or(barycentric.x * n[i] + barycentric.y * n[j] + barycentric.z * n[k], point.geometric_normal);
+    point.normal =
+        normalize_or(barycentric.x * n[i] + barycentric.y * n[j] + barycentric.z * n[k], point.geometric_normal);
     return point;
 }
 

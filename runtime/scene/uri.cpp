@@ -47,8 +47,7 @@ std::optional<std::vector<uint8_t>> decode_base64(const std::string& text) {
 bool has_scheme(const std::string& uri) {
     for (const char c : uri) {
         if (c == ':') return true;
-        if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '+' && c != '-' && c != '.')
-            return false;
+        if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '+' && c != '-' && c != '.') return false;
     }
     return false;
 }
@@ -85,8 +84,7 @@ std::optional<std::vector<uint8_t>> decode_data_uri(const std::string& uri) {
     return std::vector<uint8_t>(body.begin(), body.end());
 }
 
-std::optional<std::filesystem::path> resolve_uri(const std::filesystem::path& folder,
-                                                 const std::string& uri) {
+std::optional<std::filesystem::path> resolve_uri(const std::filesystem::path& folder, const std::string& uri) {
     const std::string name = percent_decode(uri);
     if (name.empty() || name.find('\0') != std::string::npos || has_scheme(uri) || has_scheme(name))
         return std::nullopt;
@@ -96,8 +94,7 @@ std::optional<std::filesystem::path> resolve_uri(const std::filesystem::path& fo
 
 std::optional<std::vector<uint8_t>> read_file(const std::filesystem::path& path) {
     std::error_code problem;
-    if (!std::filesystem::is_regular_file(path, problem))
-        return std::nullopt;  // no folders, pipes or devices
+    if (!std::filesystem::is_regular_file(path, problem)) return std::nullopt;  // no folders, pipes or devices
     std::ifstream stream(path, std::ios::binary);
     const auto size = std::filesystem::file_size(path, problem);
     if (!stream || problem) return std::nullopt;

@@ -54,7 +54,8 @@ struct BruteForce {
         return false;
     }
     /// E / pi and V at a point.
-    std::pair<double, double> at(const Vec3& point, const Vec3& normal, size_t monitor, int side, Random& random) const {
+    std::pair<double, double> at(const Vec3& point, const Vec3& normal, size_t monitor, int side,
+                                 Random& random) const {
         const auto& c = scene.monitors[monitor].panels[0].corners;
         const Vec3 u = c[1] - c[0], v = c[3] - c[0], front = glm::cross(u, v);
         double all = 0, seen = 0;
@@ -92,10 +93,11 @@ TEST(KanikamaRoom, MeanAbsoluteErrorBelowThreeThousandths_M6) {
                 const double root = std::sqrt(random.next()), r = random.next();
                 const Vec3 b(1 - root, root * (1 - r), root * r);
                 const SurfacePoint point = surface_point(scene, {0, static_cast<uint32_t>(t)}, b);
-                const bool is_inside = std::any_of(brute_force.boxes.begin(), brute_force.boxes.end(), [&](const auto& box) {
-                    return glm::all(glm::greaterThanEqual(point.position, box.low - 1e-9)) &&
-                           glm::all(glm::lessThanEqual(point.position, box.high + 1e-9));
-                });
+                const bool is_inside =
+                    std::any_of(brute_force.boxes.begin(), brute_force.boxes.end(), [&](const auto& box) {
+                        return glm::all(glm::greaterThanEqual(point.position, box.low - 1e-9)) &&
+                               glm::all(glm::lessThanEqual(point.position, box.high + 1e-9));
+                    });
                 if (is_inside) continue;
                 const auto [form_factor, visibility] = brute_force.at(point.position, point.normal, m, 40, random);
                 if (form_factor < 1e-5) continue;

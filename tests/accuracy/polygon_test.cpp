@@ -90,27 +90,28 @@ TEST(PolygonIrradiance, BehindIsDarkUnlessTwoSided_M1) {
     auto light = ceiling(-1, 1, -1, 1, 1);
     std::reverse(light.begin(), light.end());
     EXPECT_EQ(irradiance(light), 0);
-    EXPECT_NEAR(irradiance_of_polygon<double>(light, Vec3(0), {0, 0, 1}, true), irradiance(ceiling(-1, 1, -1, 1, 1)), 1e-15);
+    EXPECT_NEAR(irradiance_of_polygon<double>(light, Vec3(0), {0, 0, 1}, true), irradiance(ceiling(-1, 1, -1, 1, 1)),
+                1e-15);
     EXPECT_EQ(irradiance(ceiling(-1, 1, -1, 1, -1)), 0);  // below the horizon
 }
 
 TEST(PolygonIrradiance, StaysInRangeHoweverNear_M1) {
     for (const double h : {1e-1, 1e-3, 1e-6, 1e-9}) {
-        EXPECT_NEAR(irradiance(ceiling(-1, 1, -1, 1, h)), pi, 4 * h + 1e-12);           // above the middle
-        EXPECT_NEAR(irradiance(ceiling(0, 1, -1, 1, h)), pi / 2, 4 * h + 1e-12);        // above an edge
+        EXPECT_NEAR(irradiance(ceiling(-1, 1, -1, 1, h)), pi, 4 * h + 1e-12);     // above the middle
+        EXPECT_NEAR(irradiance(ceiling(0, 1, -1, 1, h)), pi / 2, 4 * h + 1e-12);  // above an edge
         EXPECT_LE(irradiance(ceiling(0, 1, 0, 1, h)), pi);
     }
 }
 
 TEST(PolygonIrradiance, DegenerateInputHasADefinedAnswer_M1) {
     EXPECT_EQ(irradiance({Vec3(1), Vec3(1), Vec3(1)}), 0);
-    EXPECT_EQ(irradiance({{0, 0, 1}, {1, 0, 1}, {2, 0, 1}}), 0);                          // no area
-    EXPECT_EQ(irradiance({{1, 0, 0}, {2, 0, 0}, {2, 1, 0}}), 0);                          // in the horizon's plane
-    for (const Vec3& corner : ceiling(-1, 1, -1, 1, 1)) {                                 // the point on a corner
+    EXPECT_EQ(irradiance({{0, 0, 1}, {1, 0, 1}, {2, 0, 1}}), 0);  // no area
+    EXPECT_EQ(irradiance({{1, 0, 0}, {2, 0, 0}, {2, 1, 0}}), 0);  // in the horizon's plane
+    for (const Vec3& corner : ceiling(-1, 1, -1, 1, 1)) {         // the point on a corner
         const double e = irradiance(ceiling(-1, 1, -1, 1, 1), corner);
         EXPECT_TRUE(e >= 0 && e <= pi) << e;
     }
-    for (const Vec3 in_plane : {Vec3(5, 0, 1), Vec3(-1, 0, 1), Vec3(0, 0, 1)}) {           // in the light's plane
+    for (const Vec3 in_plane : {Vec3(5, 0, 1), Vec3(-1, 0, 1), Vec3(0, 0, 1)}) {  // in the light's plane
         const double e = irradiance(ceiling(-1, 1, -1, 1, 1), in_plane);
         EXPECT_TRUE(e >= 0 && e <= pi) << e;
     }
@@ -123,7 +124,8 @@ TEST(PolygonIrradiance, AddsUpOverASubdivision_M1) {
     double sum = 0;
     for (int y = 0; y < 8; ++y)
         for (int x = 0; x < 8; ++x)
-            sum += irradiance(ceiling(-1 + 0.5 * x, -0.5 + 0.5 * x, -2 + 0.5 * y, -1.5 + 0.5 * y, 1.5), Vec3(0), normal);
+            sum +=
+                irradiance(ceiling(-1 + 0.5 * x, -0.5 + 0.5 * x, -2 + 0.5 * y, -1.5 + 0.5 * y, 1.5), Vec3(0), normal);
     EXPECT_NEAR(sum, whole, 1e-13);
 }
 

@@ -40,6 +40,7 @@ expect 2 "" "$surimi"
 expect 2 "samples must be" "$surimi" bake "$theater" --samples 0
 expect 2 "size must be" "$surimi" bake "$theater" --size 4
 expect 2 "" "$surimi" bake "$theater" --size 64 --density 3
+expect 2 "too small for" "$surimi" bake "$theater" --size 64
 expect 2 "Nobody" "$surimi" bake "$theater" --monitor Nobody
 expect 2 "" "$surimi" bake "$theater" --monitor Monitor_R=X
 printf 'sampels = 3\n' >"$work/bad.toml"
@@ -66,7 +67,7 @@ check test ! -e "$work/empty"
 
 # 6: cannot write
 : >"$work/file"
-expect 6 "" "$surimi" bake "$theater" --size 64 --samples 1 --quiet -o "$work/file/out"
+expect 6 "" "$surimi" bake "$theater" --size 128 --samples 1 --quiet -o "$work/file/out"
 
 # A bake: all files, the input as it was, the same bytes again with another number of threads
 before=$(sha256sum <"$theater")
@@ -94,7 +95,7 @@ check diff <("$surimi" bake "$theater" --config "$work/effective.toml" --print-c
 
 # A monitor that the configuration describes
 printf '[[monitor]]\nname = "Wall"\nchannel = "G"\ncenter = [0, 1.5, 0]\nhalf_u = [0.5, 0, 0]\nhalf_v = [0, 0.3, 0]\n' >"$work/wall.toml"
-expect 0 "Wall" "$surimi" bake "$theater" --config "$work/wall.toml" --size 64 --samples 1 -o "$work/wall"
+expect 0 "Wall" "$surimi" bake "$theater" --config "$work/wall.toml" --size 128 --samples 1 -o "$work/wall"
 check node "$here/validate_glb.mjs" "$theater" "$work/wall/home-theater.baked.glb"
 expect 0 "Wall" "$surimi" inspect "$work/wall/home-theater.baked.glb"
 

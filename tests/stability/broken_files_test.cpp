@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Broken files either load or are refused with an Error(scene) that names them; nothing else may happen.
+#include "runtime/base/error.h"
+#include "runtime/scene/gltf.h"
+#include "runtime/scene/monitors.h"
+#include "tests/unit/glb_builder.h"
+
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <functional>
 #include <random>
-
-#include "runtime/base/error.h"
-#include "runtime/scene/gltf.h"
-#include "runtime/scene/monitors.h"
-#include "tests/unit/glb_builder.h"
 
 namespace surimi {
 namespace {
@@ -46,8 +46,7 @@ GlbBuilder rich_scene() {
             {"material", 0},
             {"targets", {{{"POSITION", sparse}}}}}}}},
         {{"primitives",
-          {{{"attributes", {{"POSITION", positions}, {"JOINTS_0", joints}, {"WEIGHTS_0", weights}}},
-            {"mode", 5}}}}}};
+          {{{"attributes", {{"POSITION", positions}, {"JOINTS_0", joints}, {"WEIGHTS_0", weights}}}, {"mode", 5}}}}}};
     glb.json["materials"] = {
         {{"name", "Monitor_R"}, {"emissiveFactor", {1, 1, 1}}, {"emissiveTexture", {{"index", 0}}}}};
     glb.json["textures"] = {{{"source", 0}}};
@@ -101,8 +100,7 @@ std::string verdict(const std::filesystem::path& path) {
         }
     } catch (const Error& error) {
         EXPECT_EQ(error.kind(), ErrorKind::scene) << error.what();
-        EXPECT_NE(std::string(error.what()).find(path.filename().string()), std::string::npos)
-            << error.what();
+        EXPECT_NE(std::string(error.what()).find(path.filename().string()), std::string::npos) << error.what();
         return error.what();
     } catch (const std::exception& error) {
         ADD_FAILURE() << path << ": " << error.what();
@@ -130,8 +128,7 @@ TEST_P(BrokenJson, IsRefused) {
     GlbBuilder glb = rich_scene();
     GetParam().apply(glb.json);
     // The parameter's name instead of the test's, which has a slash.
-    const auto folder =
-        std::filesystem::temp_directory_path() / (std::string("surimi_broken_") + GetParam().name);
+    const auto folder = std::filesystem::temp_directory_path() / (std::string("surimi_broken_") + GetParam().name);
     std::filesystem::create_directories(folder);
     const std::string message = verdict(glb.write(folder / "broken.glb"));
     EXPECT_NE(message.find(GetParam().refusal), std::string::npos) << message;
@@ -144,8 +141,7 @@ Json& primitive(Json& j) {
 
 const Breakage breakages[] = {
     {"CountIsHuge", [](Json& j) { j["accessors"][0]["count"] = 4'000'000'000'000u; }, "do not fit"},
-    {"CountIsBeyondDouble", [](Json& j) { j["accessors"][0]["count"] = 18446744073709551615u; },
-     "whole number"},
+    {"CountIsBeyondDouble", [](Json& j) { j["accessors"][0]["count"] = 18446744073709551615u; }, "whole number"},
     {"CountIsNegative", [](Json& j) { j["accessors"][0]["count"] = -1; }, "whole number"},
     {"CountIsAFraction", [](Json& j) { j["accessors"][0]["count"] = 1.5; }, "whole number"},
     {"CountIsText", [](Json& j) { j["accessors"][0]["count"] = "4"; }, "whole number"},
@@ -167,8 +163,7 @@ const Breakage breakages[] = {
     {"ComponentTypeIsUnknown", [](Json& j) { j["accessors"][0]["componentType"] = 5124; }, "componentType"},
     {"TypeIsUnknown", [](Json& j) { j["accessors"][0]["type"] = "VEC5"; }, "VEC5"},
     {"PositionsAreVec2", [](Json& j) { primitive(j)["attributes"]["POSITION"] = 2; }, "must be VEC3"},
-    {"PositionOfNoAccessor", [](Json& j) { primitive(j)["attributes"]["POSITION"] = 99; },
-     "\"attributes\" is 99"},
+    {"PositionOfNoAccessor", [](Json& j) { primitive(j)["attributes"]["POSITION"] = 99; }, "\"attributes\" is 99"},
     {"NormalsAreTooFew", [](Json& j) { j["accessors"][1]["count"] = 3; }, "but the primitive has 4 vertices"},
     {"IndexIsOutOfRange",
      [](Json& j) {
@@ -183,15 +178,12 @@ const Breakage breakages[] = {
     {"IndicesAreNegative", [](Json& j) { primitive(j)["indices"] = -1; }, "whole number"},
     {"ModeIsUnknown", [](Json& j) { primitive(j)["mode"] = 7; }, "\"mode\" is 7"},
     {"MaterialIsOutOfRange", [](Json& j) { primitive(j)["material"] = 1; }, "\"material\" is 1"},
-    {"TextureIsOutOfRange", [](Json& j) { j["materials"][0]["emissiveTexture"]["index"] = 5; },
-     "\"index\" is 5"},
+    {"TextureIsOutOfRange", [](Json& j) { j["materials"][0]["emissiveTexture"]["index"] = 5; }, "\"index\" is 5"},
     {"ImageIsOutOfRange", [](Json& j) { j["textures"][0]["source"] = 5; }, "\"source\" is 5"},
     {"SparseIndexIsOutOfRange", [](Json& j) { j["accessors"][6]["count"] = 3; }, "sparse index 3"},
     {"SparseCountIsHuge", [](Json& j) { j["accessors"][6]["sparse"]["count"] = 4'000'000'000u; }, "2 GB"},
-    {"SparseValuesAreMissing", [](Json& j) { j["accessors"][6]["sparse"].erase("values"); },
-     "\"values\" is missing"},
-    {"SparseViewIsTooShort", [](Json& j) { j["accessors"][6]["sparse"]["values"]["byteOffset"] = 20; },
-     "do not fit"},
+    {"SparseValuesAreMissing", [](Json& j) { j["accessors"][6]["sparse"].erase("values"); }, "\"values\" is missing"},
+    {"SparseViewIsTooShort", [](Json& j) { j["accessors"][6]["sparse"]["values"]["byteOffset"] = 20; }, "do not fit"},
     {"NodeIsItsOwnChild",
      [](Json& j) {
          j["nodes"][1]["children"] = {1};
@@ -205,8 +197,7 @@ const Breakage breakages[] = {
          j["nodes"][2]["children"] = {1};
      },
      "its own ancestor"},
-    {"NodeHasTwoParents", [](Json& j) { j["nodes"][1]["children"] = {2}; },
-     "is a child of node 0 and of node 1"},
+    {"NodeHasTwoParents", [](Json& j) { j["nodes"][1]["children"] = {2}; }, "is a child of node 0 and of node 1"},
     {"ChildDoesNotExist", [](Json& j) { j["nodes"][1]["children"] = {9}; }, "\"children\" is 9"},
     {"NodeOfNoMesh", [](Json& j) { j["nodes"][1]["mesh"] = 9; }, "\"mesh\" is 9"},
     {"NodeOfNoSkin", [](Json& j) { j["nodes"][2]["skin"] = 9; }, "\"skin\" is 9"},
@@ -231,13 +222,11 @@ const Breakage breakages[] = {
     {"SceneIsOutOfRange", [](Json& j) { j["scene"] = 4; }, "\"scene\" is 4"},
     {"NodesAreAnObject", [](Json& j) { j["nodes"] = Json::object(); }, "must be a list"},
     {"MeshIsNull", [](Json& j) { j["meshes"][0] = nullptr; }, "must be an object"},
-    {"PrimitivesAreMissing", [](Json& j) { j["meshes"][0].erase("primitives"); },
-     "\"primitives\" is missing"},
+    {"PrimitivesAreMissing", [](Json& j) { j["meshes"][0].erase("primitives"); }, "\"primitives\" is missing"},
     {"AssetIsMissing", [](Json& j) { j.erase("asset"); }, "\"asset\" is missing"},
     {"VersionIsOne", [](Json& j) { j["asset"]["version"] = "1.0"; }, "only glTF 2"},
     {"BufferIsMissing", [](Json& j) { j.erase("bufferViews"); }, "\"bufferView\""},
-    {"ExtensionIsRequiredAndUnknown", [](Json& j) { j["extensionsRequired"] = {"EXT_unheard_of"}; },
-     "EXT_unheard_of"},
+    {"ExtensionIsRequiredAndUnknown", [](Json& j) { j["extensionsRequired"] = {"EXT_unheard_of"}; }, "EXT_unheard_of"},
     {"ExtensionsAreNumbers",
      [](Json& j) {
          j["extensionsUsed"] = {1, 2};
@@ -249,8 +238,7 @@ const Breakage breakages[] = {
                                                                      {"attributes", {{"POSITION", 0}}}};
      },
      "draco"},
-    {"MeshoptIsNotAnObject",
-     [](Json& j) { j["bufferViews"][0]["extensions"]["EXT_meshopt_compression"] = 3; }, ""},
+    {"MeshoptIsNotAnObject", [](Json& j) { j["bufferViews"][0]["extensions"]["EXT_meshopt_compression"] = 3; }, ""},
     {"MeshoptWithoutData",
      [](Json& j) {
          j["bufferViews"][0]["extensions"]["EXT_meshopt_compression"] = {
@@ -288,14 +276,12 @@ TEST(BrokenFiles, BytesThatAreNoUtf8) {
 TEST(BrokenFiles, NestedTooDeep) {
     const std::string deep(1'000'000, '[');
     EXPECT_NE(verdict_of_text(deep).find("nested"), std::string::npos);
-    EXPECT_NE(verdict_of_text("{\"asset\":{\"version\":\"2.0\"},\"extras\":" + deep +
-                              std::string(1'000'000, ']') + "}")
+    EXPECT_NE(verdict_of_text("{\"asset\":{\"version\":\"2.0\"},\"extras\":" + deep + std::string(1'000'000, ']') + "}")
                   .find("nested"),
               std::string::npos);
 }
 TEST(BrokenFiles, BracketsInTextAreNotNesting) {
-    EXPECT_EQ(verdict_of_text("{\"asset\":{\"version\":\"2.0\",\"generator\":\"\\\"" +
-                              std::string(1000, '[') + "\"}}"),
+    EXPECT_EQ(verdict_of_text("{\"asset\":{\"version\":\"2.0\",\"generator\":\"\\\"" + std::string(1000, '[') + "\"}}"),
               "");
 }
 TEST(BrokenFiles, ALongChainOfNodesIsNoRecursion) {
@@ -318,8 +304,7 @@ TEST(BrokenFiles, BufferInTheUriIsTruncatedOrMalformed) {
               std::string::npos);
     EXPECT_NE(verdict_of_text(with_uri("data:application/octet-stream;base64,A!AA")).find("malformed"),
               std::string::npos);
-    EXPECT_NE(verdict_of_text(with_uri("data:application/octet-stream")).find("malformed"),
-              std::string::npos);
+    EXPECT_NE(verdict_of_text(with_uri("data:application/octet-stream")).find("malformed"), std::string::npos);
     EXPECT_NE(verdict_of_text(with_uri("https://example.com/a.bin")).find("not a file"), std::string::npos);
     EXPECT_NE(verdict_of_text(with_uri("")).find("not a file"), std::string::npos);
 }
@@ -350,8 +335,7 @@ TEST(BrokenGlb, ChunkSizesAndHeader) {
 TEST(BrokenGlb, EmptyBinaryChunk) {
     std::vector<uint8_t> bytes;
     const std::string json = R"({"asset":{"version":"2.0"}} )";
-    for (const size_t word :
-         {size_t{0x46546C67}, size_t{2}, 28 + json.size(), json.size(), size_t{0x4E4F534A}})
+    for (const size_t word : {size_t{0x46546C67}, size_t{2}, 28 + json.size(), json.size(), size_t{0x4E4F534A}})
         test::append_u32(bytes, word);
     bytes.insert(bytes.end(), json.begin(), json.end());
     for (const size_t word : {size_t{0}, size_t{0x004E4942}}) test::append_u32(bytes, word);
@@ -385,8 +369,8 @@ TEST(BrokenCorpus, EveryFileLoadsOrIsRefused) {
     if (scenes == nullptr)
         GTEST_SKIP() << "SURIMI_SCENES does not name a folder of scenes; the cases above stand for them";
     size_t files = 0;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(std::filesystem::path(scenes) /
-                                                                           "nasty-broken-corpus")) {
+    for (const auto& entry :
+         std::filesystem::recursive_directory_iterator(std::filesystem::path(scenes) / "nasty-broken-corpus")) {
         const std::string ending = entry.path().extension().string();
         if (ending != ".gltf" && ending != ".glb") continue;
         ++files;

@@ -9,16 +9,20 @@
 namespace surimi::test {
 namespace {
 
-double cross2(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
+double cross2(const Vec2& a, const Vec2& b) {
+    return a.x * b.y - a.y * b.x;
+}
 
 /// Convex hull, counter-clockwise (Andrew's monotone chain).
 std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
-    std::sort(points.begin(), points.end(), [](const Vec2& a, const Vec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+    std::sort(points.begin(), points.end(),
+              [](const Vec2& a, const Vec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
     std::vector<Vec2> hull;
     for (int pass = 0; pass < 2; ++pass) {
         const size_t floor = hull.size() + 2;
         for (const Vec2& p : points) {
-            while (hull.size() >= floor && cross2(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0) hull.pop_back();
+            while (hull.size() >= floor && cross2(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0)
+                hull.pop_back();
             hull.push_back(p);
         }
         hull.pop_back();
@@ -65,7 +69,8 @@ double irradiance_by_quadrature(const Polygon& light, const Vec3& point, const V
     return sum / (static_cast<double>(n) * n);
 }
 
-double exact_visibility(const Polygon& light, const Vec3& point, const Vec3& normal, std::span<const Occluder> occluders) {
+double exact_visibility(const Polygon& light, const Vec3& point, const Vec3& normal,
+                        std::span<const Occluder> occluders) {
     const Vec3 origin = light.corners[0];
     const Vec3 u = glm::normalize(light.corners[1] - origin);
     const Vec3 n = glm::normalize(glm::cross(light.corners[1] - origin, light.corners[2] - origin));
@@ -83,7 +88,8 @@ double exact_visibility(const Polygon& light, const Vec3& point, const Vec3& nor
             projected.push_back(flat(point + t * (p - point)));
         }
         std::vector<Vec3> shadow;
-        for (const Vec2& p : intersection(outline, convex_hull(projected))) shadow.push_back(origin + p.x * u + p.y * v);
+        for (const Vec2& p : intersection(outline, convex_hull(projected)))
+            shadow.push_back(origin + p.x * u + p.y * v);
         if (shadow.size() >= 3) hidden += irradiance_of_polygon<double>(shadow, point, normal);
     }
     return 1 - hidden / whole;

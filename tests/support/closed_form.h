@@ -26,6 +26,7 @@ struct Occluder {
 /// Exact visibility of a convex planar light from a point past disjoint convex occluders that lie between the point and
 /// the light's plane: one minus the share of irradiance of the light's part behind the projected hulls. Occluders must
 /// not overlap as seen from the point.
-double exact_visibility(const Polygon& light, const Vec3& point, const Vec3& normal, std::span<const Occluder> occluders);
+double exact_visibility(const Polygon& light, const Vec3& point, const Vec3& normal,
+                        std::span<const Occluder> occluders);
 
 }  // namespace surimi::test

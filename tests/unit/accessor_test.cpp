@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/scene/accessor.h"
 
+#include "runtime/base/error.h"
+
 #include <gtest/gtest.h>
 
 #include <cstring>
 #include <limits>
-
-#include "runtime/base/error.h"
 
 namespace surimi {
 namespace {
@@ -56,18 +56,16 @@ using Values = std::vector<double>;
 
 TEST(ReadAccessor, ReadsEveryComponentType) {
     SmallModel small;
-    small.add_accessor(small.add_view<int8_t>({-128, 127}), TINYGLTF_COMPONENT_TYPE_BYTE,
-                       TINYGLTF_TYPE_SCALAR, 2);
-    small.add_accessor(small.add_view<uint8_t>({0, 255}), TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE,
-                       TINYGLTF_TYPE_SCALAR, 2);
-    small.add_accessor(small.add_view<int16_t>({-32768, 32767}), TINYGLTF_COMPONENT_TYPE_SHORT,
-                       TINYGLTF_TYPE_SCALAR, 2);
+    small.add_accessor(small.add_view<int8_t>({-128, 127}), TINYGLTF_COMPONENT_TYPE_BYTE, TINYGLTF_TYPE_SCALAR, 2);
+    small.add_accessor(small.add_view<uint8_t>({0, 255}), TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_TYPE_SCALAR,
+                       2);
+    small.add_accessor(small.add_view<int16_t>({-32768, 32767}), TINYGLTF_COMPONENT_TYPE_SHORT, TINYGLTF_TYPE_SCALAR,
+                       2);
     small.add_accessor(small.add_view<uint16_t>({0, 65535}), TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT,
                        TINYGLTF_TYPE_SCALAR, 2);
     small.add_accessor(small.add_view<uint32_t>({0, 4294967295u}), TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
                        TINYGLTF_TYPE_SCALAR, 2);
-    small.add_accessor(small.add_view<float>({-0.5f, 1e30f}), TINYGLTF_COMPONENT_TYPE_FLOAT,
-                       TINYGLTF_TYPE_SCALAR, 2);
+    small.add_accessor(small.add_view<float>({-0.5f, 1e30f}), TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_SCALAR, 2);
     EXPECT_EQ(small.refusal(), "");
     EXPECT_EQ(read_accessor(small.model, 0), (Values{-128, 127}));
     EXPECT_EQ(read_accessor(small.model, 1), (Values{0, 255}));
@@ -81,8 +79,8 @@ TEST(ReadAccessor, ReadsEveryComponentType) {
 TEST(ReadAccessor, NormalisedIntegersReachBothEnds) {
     SmallModel small;
     small
-        .add_accessor(small.add_view<int8_t>({-128, -127, 0, 127}), TINYGLTF_COMPONENT_TYPE_BYTE,
-                      TINYGLTF_TYPE_SCALAR, 4)
+        .add_accessor(small.add_view<int8_t>({-128, -127, 0, 127}), TINYGLTF_COMPONENT_TYPE_BYTE, TINYGLTF_TYPE_SCALAR,
+                      4)
         .normalized = true;
     small
         .add_accessor(small.add_view<uint16_t>({0, 65535}), TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT,
@@ -123,8 +121,7 @@ struct SparseModel : SmallModel {
     explicit SparseModel(const std::vector<uint16_t>& indices) {
         const int index_view = add_view(indices);
         const int value_view = add_view<float>(std::vector<float>(indices.size(), 7.f));
-        tinygltf::Accessor& accessor =
-            add_accessor(-1, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_SCALAR, 4);
+        tinygltf::Accessor& accessor = add_accessor(-1, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_SCALAR, 4);
         accessor.sparse.isSparse = true;
         accessor.sparse.count = static_cast<int>(indices.size());
         accessor.sparse.indices.bufferView = index_view;

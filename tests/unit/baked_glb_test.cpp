@@ -1,110 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "baker/write/baked_glb.h"
+#include "baked_file.h"
 
 #include <gtest/gtest.h>
 
-#include <functional>
+#include <array>
 #include <set>
-
-#include "glb_builder.h"
-#include "runtime/scene/gltf.h"
 
 namespace surimi::test {
 namespace {
-
-// The smallest PNG header that tells a PNG from anything else; nothing here decodes it.
-const std::vector<uint8_t> png{0x89, 'P', 'N', 'G', 13, 10, 26, 10, 1, 2, 3};
-const CarriedMap map_of_screen{png, {"Screen", "", ""}};
-
-/// Every triangle alone: all vertices are split.
-Atlas scattered_atlas(const Scene& scene) {
-    Atlas atlas;
-    atlas.width = atlas.height = 64;
-    float n = 0;
-    for (const Surface& surface : scene.surfaces) {
-        SurfaceUv uv;
-        for (size_t t = 0; t < surface.triangles.size(); ++t, n += 1)
-            uv.uv.push_back({Vec2f(n, 1) / 4096.0f, Vec2f(n, 2) / 4096.0f, Vec2f(n + 0.5f, 1) / 4096.0f});
-        uv.chart.resize(uv.uv.size());
-        atlas.surfaces.push_back(uv);
-    }
-    return atlas;
-}
-
-/// One uv for each vertex of the file: nothing needs a split.
-Atlas joined_atlas(const Scene& scene) {
-    Atlas atlas = scattered_atlas(scene);
-    for (size_t s = 0; s < scene.surfaces.size(); ++s)
-        for (size_t t = 0; t < scene.surfaces[s].triangles.size(); ++t)
-            for (size_t k = 0; k < 3; ++k) {
-                const auto v = static_cast<float>(scene.surfaces[s].source_vertex[scene.surfaces[s].triangles[t][k]]);
-                atlas.surfaces[s].uv[t][k] = Vec2f(v, static_cast<float>(s)) / 4096.0f;
-            }
-    return atlas;
-}
-
-const std::vector<float> quad_positions{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
-const std::vector<uint16_t> quad_indices{0, 1, 2, 0, 2, 3};
-
-/// A file with one quad, on which tests build.
-struct QuadFile : GlbBuilder {
-    int position = add_floats(quad_positions, "VEC3");
-    int normal = add_floats({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
-    int index = add_indices(quad_indices);
-
-    QuadFile() {
-        json["accessors"][0]["min"] = {0, 0, 0};
-        json["accessors"][0]["max"] = {1, 1, 0};
-        json["meshes"] = {{{"primitives", {primitive()}}}};
-        json["nodes"] = {{{"name", "Wall"}, {"mesh", 0}}};
-        json["scenes"] = {{{"nodes", {0}}}};
-        json["scene"] = 0;
-    }
-    Json primitive() const {
-        return {{"attributes", {{"POSITION", position}, {"NORMAL", normal}}}, {"indices", index}};
-    }
-    Json& first_primitive() { return json["meshes"][0]["primitives"][0]; }
-    void add_node(const Json& node) {
-        json["scenes"][0]["nodes"].push_back(json["nodes"].size());
-        json["nodes"].push_back(node);
-    }
-};
-
-using MakeAtlas = std::function<Atlas(const Scene&)>;
-
-/// Reads the file, gives it an atlas, writes it.
-struct Baked {
-    Scene scene;
-    Atlas atlas;
-    std::vector<uint8_t> bytes;
-    GlbFile file{bytes};
-
-    Baked(GlbBuilder& builder, const MakeAtlas& make_atlas, const std::function<void(Scene&)>& change = {})
-        : Baked(builder.write(test_folder() / "room.glb"), make_atlas, change) {}
-
-    Baked(const std::filesystem::path& path, const MakeAtlas& make_atlas, const std::function<void(Scene&)>& change = {})
-        : scene(changed(path, change)), atlas(make_atlas(scene)), bytes(make_baked_glb(scene, atlas, map_of_screen)) {}
-
-    static Scene changed(const std::filesystem::path& path, const std::function<void(Scene&)>& change) {
-        Scene scene = read_gltf(path);
-        if (change) change(scene);
-        return scene;
-    }
-
-    std::filesystem::path write(const std::filesystem::path& path) const {
-        std::ofstream(path, std::ios::binary)
-            .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-        return path;
-    }
-};
-
-/// What the corners of a triangle list hold of one attribute.
-std::vector<std::vector<uint8_t>> at_corners(const GlbFile& file, const Json& primitive, const Json& accessor) {
-    const auto elements = file.elements(accessor);
-    std::vector<std::vector<uint8_t>> result;
-    for (const size_t corner : file.corners(primitive)) result.push_back(elements.at(corner));
-    return result;
-}
 
 TEST(BakedGlb, VerticesStaySharedWhereEachHasOneUv) {
     QuadFile file;
@@ -121,7 +24,8 @@ TEST(BakedGlb, VerticesStaySharedWhereEachHasOneUv) {
 TEST(BakedGlb, SplitVerticesCarryAllTheirAttributes) {
     QuadFile file;
     Json& primitive = file.first_primitive();
-    primitive["attributes"]["COLOR_0"] = file.add<uint8_t>({1, 2, 3, 0, 4, 5, 6, 0, 7, 8, 9, 0, 10, 11, 12, 0}, 5121, "VEC4");
+    primitive["attributes"]["COLOR_0"] =
+        file.add<uint8_t>({1, 2, 3, 0, 4, 5, 6, 0, 7, 8, 9, 0, 10, 11, 12, 0}, 5121, "VEC4");
     file.json["accessors"].back()["normalized"] = true;
     primitive["attributes"]["_WEAR"] = file.add<uint16_t>({100, 0, 200, 0, 300, 0, 400, 0}, 5123, "VEC2");
     primitive["targets"] = {{{"POSITION", file.add_floats({9, 8, 7, 6, 5, 4, 3, 2, 1, 0, -1, -2}, "VEC3")}}};
@@ -200,8 +104,10 @@ TEST(BakedGlb, SplitInstancesAllReadTheSource) {
     QuadFile file;
     file.add_node({{"name", "Second"}, {"mesh", 0}});
     const Baked baked(file, scattered_atlas);
-    const auto first = at_corners(baked.file, baked.file.primitive(0), baked.file.primitive(0)["attributes"]["POSITION"]);
-    const auto second = at_corners(baked.file, baked.file.primitive(1), baked.file.primitive(1)["attributes"]["POSITION"]);
+    const auto first =
+        at_corners(baked.file, baked.file.primitive(0), baked.file.primitive(0)["attributes"]["POSITION"]);
+    const auto second =
+        at_corners(baked.file, baked.file.primitive(1), baked.file.primitive(1)["attributes"]["POSITION"]);
     EXPECT_EQ(first, second);
     EXPECT_EQ(first.size(), 6u);
 }
@@ -248,7 +154,8 @@ TEST(BakedGlb, VertexNumbersTakeTwoBytesWhileTheyFit) {
     for (const size_t triangles : {size_t{21844}, size_t{21845}}) {
         QuadFile file;
         std::vector<float> positions;
-        for (size_t t = 0; t < triangles; ++t) positions.insert(positions.end(), {0, 0, float(t), 1, 0, float(t), 0, 1, float(t)});
+        for (size_t t = 0; t < triangles; ++t)
+            positions.insert(positions.end(), {0, 0, float(t), 1, 0, float(t), 0, 1, float(t)});
         file.first_primitive() = {{"attributes", {{"POSITION", file.add_floats(positions, "VEC3")}}}};
         const Baked baked(file, joined_atlas);
         const Json& accessor = baked.file.json["accessors"][baked.file.primitive(0)["indices"].get<size_t>()];
@@ -261,33 +168,6 @@ TEST(BakedGlb, AMissingFirstSetPointsToTheMap) {
     const Baked baked(file, scattered_atlas);
     const Json& attributes = baked.file.primitive(0)["attributes"];
     EXPECT_EQ(attributes["TEXCOORD_0"], attributes["TEXCOORD_1"]);
-}
-
-TEST(BakedGlb, ASecondSetThatMaterialsReadMoves) {
-    QuadFile file;
-    const std::vector<float> old_uv{0, 0, 9, 0, 9, 9, 0, 9};
-    Json& attributes = file.first_primitive()["attributes"];
-    attributes["TEXCOORD_0"] = file.add_floats({0, 0, 1, 0, 1, 1, 0, 1}, "VEC2");
-    attributes["TEXCOORD_1"] = file.add_floats(old_uv, "VEC2");
-    file.json["images"] = {{{"mimeType", "image/png"}, {"bufferView", file.add_view(png)}}};
-    file.json["textures"] = {{{"source", 0}}};
-    const Json transform{{"KHR_texture_transform", {{"texCoord", 1}, {"scale", {2, 2}}}}};
-    file.json["materials"] = {{{"occlusionTexture", {{"index", 0}, {"texCoord", 1}}},
-                               {"emissiveTexture", {{"index", 0}, {"extensions", transform}}},
-                               {"normalTexture", {{"index", 0}}}}};
-    file.first_primitive()["material"] = 0;
-    Json other = file.primitive();  // shares the material, but has no second set to move
-    other["material"] = 0;
-    file.json["meshes"].push_back({{"primitives", {other}}});
-    file.add_node({{"mesh", 1}});
-    const Baked baked(file, joined_atlas);
-    const Json& primitive = baked.file.primitive(0);
-    EXPECT_EQ(baked.file.values<float>(primitive["attributes"]["TEXCOORD_2"]), old_uv);
-    const Json& moved = baked.file.json["materials"][primitive["material"].get<size_t>()];
-    EXPECT_EQ(moved["occlusionTexture"]["texCoord"], 2);
-    EXPECT_EQ(moved["emissiveTexture"]["extensions"]["KHR_texture_transform"]["texCoord"], 2);
-    EXPECT_EQ(moved["normalTexture"], Json({{"index", 0}}));
-    EXPECT_NE(baked.file.primitive(1)["material"], primitive["material"]);
 }
 
 TEST(BakedGlb, ASecondSetThatNobodyReadsIsReplaced) {
@@ -316,99 +196,6 @@ TEST(BakedGlb, UvsThatAreThereAlreadyStay) {
     EXPECT_EQ(baked.file.json["accessors"], file.json["accessors"]);
 }
 
-Json map_anchor(const Json& texture) { return {{"index", texture}, {"texCoord", 1}}; }
-
-TEST(BakedGlb, MaterialsCarryTheMapOnALayerThatIsOff) {
-    QuadFile file;
-    file.json["materials"] = {{{"name", "plain"}},
-                              {{"name", "coated"}, {"extensions", {{"KHR_materials_clearcoat", {{"clearcoatFactor", 0.5}}}}}},
-                              {{"name", "unlit"}, {"extensions", {{"KHR_materials_unlit", Json::object()}}}},
-                              {{"name", "odd"}, {"extras", "text"}}};
-    file.json["extensionsUsed"] = {"KHR_materials_clearcoat", "KHR_materials_unlit"};
-    file.json["meshes"][0]["primitives"] = Json::array();
-    for (int m = -1; m < 4; ++m) {
-        Json primitive = file.primitive();
-        if (m >= 0) primitive["material"] = m;
-        file.json["meshes"][0]["primitives"].push_back(primitive);
-    }
-    const Baked baked(file, joined_atlas);
-    const Json& materials = baked.file.json["materials"];
-    ASSERT_EQ(materials.size(), 5);
-    const Json mark{{"version", 1}, {"encoding", "srgb"}, {"channels", {"Screen", nullptr, nullptr}}};
-    EXPECT_EQ(materials[0]["extensions"]["KHR_materials_clearcoat"],
-              Json({{"clearcoatFactor", 0}, {"clearcoatTexture", map_anchor(0)}}));
-    EXPECT_EQ(materials[0]["extras"]["visibilityMap"], mark);
-    EXPECT_EQ(materials[1]["extensions"]["KHR_materials_clearcoat"], Json({{"clearcoatFactor", 0.5}}));
-    EXPECT_EQ(materials[1]["extensions"]["KHR_materials_sheen"],
-              Json({{"sheenColorFactor", {0, 0, 0}}, {"sheenColorTexture", map_anchor(0)}}));
-    EXPECT_EQ(materials[2]["extensions"].size(), 1);
-    EXPECT_EQ(materials[2]["extras"]["visibilityMap"]["file"], "room.visibility.png");
-    EXPECT_EQ(materials[3]["extras"], "text");
-    EXPECT_TRUE(materials[3]["extensions"].contains("KHR_materials_clearcoat"));
-    EXPECT_EQ(materials[4]["extras"]["visibilityMap"], mark) << "the default material, written out";
-    EXPECT_EQ(baked.file.primitive(0, 0)["material"], 4);
-    EXPECT_EQ(baked.file.json["extensionsUsed"],
-              Json({"KHR_materials_clearcoat", "KHR_materials_unlit", "KHR_materials_sheen"}));
-    EXPECT_FALSE(baked.file.json.contains("extensionsRequired"));
-    const Json& texture = baked.file.json["textures"][0];
-    const Json& image = baked.file.json["images"][texture["source"].get<size_t>()];
-    EXPECT_EQ(image["mimeType"], "image/png");
-    EXPECT_EQ(baked.file.view(image["bufferView"].get<size_t>()), png);
-}
-
-TEST(BakedGlb, WhoHasNoMapSharesNoMaterialWithWhoHas) {
-    QuadFile file;
-    file.json["materials"] = {{{"name", "all"}}};
-    file.first_primitive()["material"] = 0;
-    Json lines = file.first_primitive();
-    lines["mode"] = 1;
-    file.json["meshes"][0]["primitives"].push_back(lines);
-    const Baked baked(file, joined_atlas);
-    EXPECT_EQ(baked.file.json["materials"][0], file.json["materials"][0]);
-    EXPECT_EQ(baked.file.primitive(0, 1)["material"], 0);
-    EXPECT_EQ(baked.file.primitive(0, 0)["material"], 1);
-    EXPECT_EQ(baked.file.json["materials"][1]["name"], "all");
-}
-
-TEST(BakedGlb, MonitorsAreMarkedAndCarryNoMap) {
-    QuadFile file;
-    file.add_node({{"name", "Screen"}, {"mesh", 0}, {"extras", {{"size", 7}}}});
-    file.add_node({{"name", "Old"}, {"extras", {{"monitor", "G"}}}});
-    const Baked baked(file, joined_atlas, [](Scene& scene) {
-        Monitor monitor;
-        monitor.name = "Screen";
-        monitor.node = 1;
-        monitor.panels = {Polygon{{Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0)}}};
-        scene.surfaces[1].monitor = 0;
-        scene.monitors.push_back(monitor);
-    });
-    EXPECT_EQ(baked.file.json["nodes"][1]["extras"], Json({{"size", 7}, {"monitor", "R"}}));
-    EXPECT_EQ(baked.file.json["nodes"][2]["extras"]["monitor"], false);
-    EXPECT_FALSE(baked.file.primitive(1).contains("material"));
-    EXPECT_TRUE(baked.file.primitive(1)["attributes"].contains("TEXCOORD_1"));
-}
-
-TEST(BakedGlb, MonitorsOfTheConfigurationGetANode) {
-    QuadFile file;
-    const Baked baked(file, joined_atlas, [](Scene& scene) {
-        Monitor monitor;
-        monitor.name = "Screen";
-        monitor.channel = 2;
-        monitor.radiance = Vec3(4, 2, 0);
-        monitor.panels = {Polygon{{Vec3(0, 0, 3), Vec3(1, 0, 3), Vec3(1, 1, 3), Vec3(0, 1, 3)}}};
-        scene.monitors.push_back(monitor);
-    });
-    const Json& node = baked.file.json["nodes"][1];
-    EXPECT_EQ(node["name"], "Screen");
-    EXPECT_EQ(node["extras"]["monitor"], "B");
-    EXPECT_EQ(baked.file.json["scenes"][0]["nodes"], Json({0, 1}));
-    const Scene back = read_gltf(baked.write(baked.scene.path.parent_path() / "baked.glb"));
-    ASSERT_EQ(back.surfaces.size(), 2u);
-    EXPECT_EQ(back.surfaces[1].triangles.size(), 2u);
-    EXPECT_EQ(back.surfaces[1].positions[2], Vec3(1, 1, 3));
-    EXPECT_EQ(back.materials[static_cast<size_t>(back.surfaces[1].material)].emissive, Vec3(4, 2, 0));
-}
-
 TEST(BakedGlb, EverythingElseStays) {
     QuadFile file;
     Json& json = file.json;
@@ -420,7 +207,8 @@ TEST(BakedGlb, EverythingElseStays) {
     json["extensionsUsed"] = {"ACME_thing"};
     json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.7}, {"znear", 0.1}}}, {"extras", extras}}};
     file.add_node({{"name", "Eye"}, {"camera", 0}});
-    json["images"] = {{{"name", "kept"}, {"mimeType", "image/png"}, {"bufferView", file.add_view(png)}, {"extras", extras}}};
+    json["images"] = {
+        {{"name", "kept"}, {"mimeType", "image/png"}, {"bufferView", file.add_view(png)}, {"extras", extras}}};
     json["samplers"] = {{{"magFilter", 9728}, {"extras", extras}}};
     json["textures"] = {{{"sampler", 0}, {"source", 0}, {"extras", extras}}};
     const int times = file.add_floats({0, 1}, "SCALAR");
@@ -452,9 +240,10 @@ TEST(BakedGlb, WhatUnknownExtensionsMayNameKeepsItsPlace) {
 
 TEST(BakedGlb, ImagesOutsideTheFileMoveIn) {
     const auto folder = test_folder();
-    std::ofstream(folder / "a b.png", std::ios::binary).write(reinterpret_cast<const char*>(png.data()), 11);
+    std::ofstream(folder / "a b.png", std::ios::binary)
+        .write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
     QuadFile file;
-    file.json["images"] = {{{"uri", "a%20b.png"}, {"name", "file"}}, {{"uri", "data:image/png;base64,iVBORw0KGgoBAgM="}}};
+    file.json["images"] = {{{"uri", "a%20b.png"}, {"name", "file"}}, {{"uri", "data:image/png;base64," + png_base64}}};
     const Baked baked(file.write(folder / "room.glb"), joined_atlas);
     for (size_t i = 0; i < 2; ++i) {
         const Json& image = baked.file.json["images"][i];
@@ -488,34 +277,6 @@ TEST(BakedGlb, WrongBoundsAreCorrected) {
     file.json["accessors"][0]["max"] = {5, 5, 5};
     const Baked baked(file, joined_atlas);
     EXPECT_EQ(baked.file.json["accessors"][0]["max"], Json({1, 1, 0}));
-}
-
-TEST(BakedGlb, BakingABakedFileAddsNothing) {
-    QuadFile file;
-    file.json["materials"] = {{{"name", "paint"}}};
-    file.first_primitive()["material"] = 0;
-    const Baked once(file, scattered_atlas);
-    const Baked twice(once.write(once.scene.path), [](const Scene& scene) {
-        Atlas atlas = scattered_atlas(scene);
-        for (auto& corners : atlas.surfaces[0].uv)
-            for (Vec2f& uv : corners) uv *= 2;  // another place, so that it is a new map
-        return atlas;
-    });
-    EXPECT_EQ(twice.bytes.size(), once.bytes.size());
-    EXPECT_EQ(twice.file.json["materials"], once.file.json["materials"]);
-    EXPECT_EQ(twice.file.json["images"].size(), 1);
-    EXPECT_EQ(twice.file.json["textures"].size(), 1);
-    EXPECT_EQ(twice.file.json["accessors"].size(), once.file.json["accessors"].size());
-}
-
-TEST(BakedGlb, WithoutAMapOnlyTheUvsAreNew) {
-    QuadFile file;
-    const Scene scene = read_gltf(file.write(test_folder() / "room.glb"));
-    const auto bytes = make_baked_glb(scene, joined_atlas(scene), {});
-    const GlbFile baked(bytes);
-    EXPECT_FALSE(baked.json.contains("materials"));
-    EXPECT_FALSE(baked.json.contains("images"));
-    EXPECT_TRUE(baked.primitive(0)["attributes"].contains("TEXCOORD_1"));
 }
 
 TEST(BakedGlb, SameInputSameBytes) {

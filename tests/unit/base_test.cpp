@@ -33,7 +33,8 @@ TEST(Sobol, EveryPairOfTheFirstTwoDimensionsIsANet) {
 TEST(Sobol, EachDimensionIsStratified) {
     for (size_t d = 0; d < 4; ++d) {
         std::set<int> cells;
-        for (uint32_t i = 0; i < 1024; ++i) cells.insert(static_cast<int>(scrambled(sobol::point(i), scrambling(3))[d] * 1024));
+        for (uint32_t i = 0; i < 1024; ++i)
+            cells.insert(static_cast<int>(scrambled(sobol::point(i), scrambling(3))[d] * 1024));
         EXPECT_EQ(cells.size(), 1024u) << d;
     }
 }
@@ -46,7 +47,8 @@ TEST(Sobol, KeysGiveDifferentPoints) {
 
 TEST(NormalizeOr, SurvivesExtremeLengths) {
     for (const double scale : {1e-300, 1.0, 1e300})
-        EXPECT_NEAR(glm::length(normalize_or(scale * Vec3(1, 2, -2), {0, 0, 1}) - Vec3(1, 2, -2) / 3.0), 0, 1e-15) << scale;
+        EXPECT_NEAR(glm::length(normalize_or(scale * Vec3(1, 2, -2), {0, 0, 1}) - Vec3(1, 2, -2) / 3.0), 0, 1e-15)
+            << scale;
     EXPECT_EQ(normalize_or(Vec3(0), {0, 0, 1}), Vec3(0, 0, 1));
     EXPECT_EQ(normalize_or(Vec3(NAN, 0, 0), {0, 0, 1}), Vec3(0, 0, 1));
     EXPECT_EQ(normalize_or(Vec3(INFINITY, 0, 0), {0, 0, 1}), Vec3(0, 0, 1));
@@ -64,7 +66,11 @@ TEST(Parallel, VisitsEveryItemOnce) {
 }
 
 TEST(Parallel, PassesExceptionsOn) {
-    EXPECT_THROW(parallel_for(100, 1, [](size_t i) { if (i == 50) throw std::runtime_error("x"); }), std::runtime_error);
+    EXPECT_THROW(parallel_for(100, 1,
+                              [](size_t i) {
+                                  if (i == 50) throw std::runtime_error("x");
+                              }),
+                 std::runtime_error);
 }
 
 TEST(Parallel, StageReportsItsEndAndStopsWhenCancelled) {

@@ -2,12 +2,12 @@
 // Encodes with the libraries, reads with ours.
 #include "runtime/scene/compressed.h"
 
+#include "tests/unit/square_glb.h"
+
 #include <draco/compression/encode.h>
 #include <draco/mesh/triangle_soup_mesh_builder.h>
 #include <gtest/gtest.h>
 #include <meshoptimizer.h>
-
-#include "tests/unit/square_glb.h"
 
 namespace surimi {
 namespace {
@@ -24,10 +24,8 @@ std::vector<uint8_t> draco_square() {
     builder.Start(2);
     const int id = builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
     const std::array<std::array<float, 3>, 4> corners{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}};
-    builder.SetAttributeValuesForFace(id, draco::FaceIndex(0), corners[0].data(), corners[1].data(),
-                                      corners[2].data());
-    builder.SetAttributeValuesForFace(id, draco::FaceIndex(1), corners[0].data(), corners[2].data(),
-                                      corners[3].data());
+    builder.SetAttributeValuesForFace(id, draco::FaceIndex(0), corners[0].data(), corners[1].data(), corners[2].data());
+    builder.SetAttributeValuesForFace(id, draco::FaceIndex(1), corners[0].data(), corners[2].data(), corners[3].data());
     const std::unique_ptr<draco::Mesh> mesh = builder.Finalize();
     draco::Encoder encoder;
     encoder.SetAttributeQuantization(draco::GeometryAttribute::POSITION, 14);
@@ -61,9 +59,7 @@ TEST(DecodeDraco, LeavesNoTraceInTheModel) {
     const GltfDocument document = load_document(square.write(test::test_folder() / "draco.glb"));
     EXPECT_TRUE(document.model.extensionsRequired.empty());
     EXPECT_TRUE(document.model.meshes[0].primitives[0].extensions.empty());
-    EXPECT_EQ(
-        document.model.accessors[static_cast<size_t>(document.model.meshes[0].primitives[0].indices)].count,
-        6u);
+    EXPECT_EQ(document.model.accessors[static_cast<size_t>(document.model.meshes[0].primitives[0].indices)].count, 6u);
 }
 
 TEST(DecodeDraco, DamagedDataIsAnErrorOrHarmless) {
@@ -74,22 +70,19 @@ TEST(DecodeDraco, DamagedDataIsAnErrorOrHarmless) {
         damaged[i] ^= 0xFF;
         DracoSquare square(damaged);
         refused += refusal(square.write(test::test_folder() / "damaged.glb")).empty() ? 0 : 1;
-        DracoSquare shorter(
-            std::vector<uint8_t>(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(i)));
+        DracoSquare shorter(std::vector<uint8_t>(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(i)));
         refused += refusal(shorter.write(test::test_folder() / "damaged.glb")).empty() ? 0 : 1;
     }
     EXPECT_GT(refused, whole.size());
 }
 
 TEST(DecodeDraco, WrongReferencesAreErrors) {
-    for (const Json& wrong :
-         {Json{{"bufferView", 99}, {"attributes", {{"POSITION", 0}}}},
-          Json{{"bufferView", 2}, {"attributes", {{"POSITION", 5}}}}, Json{{"bufferView", 2}},
-          Json{{"bufferView", -1}, {"attributes", Json::object()}}}) {
+    for (const Json& wrong : {Json{{"bufferView", 99}, {"attributes", {{"POSITION", 0}}}},
+                              Json{{"bufferView", 2}, {"attributes", {{"POSITION", 5}}}}, Json{{"bufferView", 2}},
+                              Json{{"bufferView", -1}, {"attributes", Json::object()}}}) {
         DracoSquare square;
         square.primitive["extensions"]["KHR_draco_mesh_compression"] = wrong;
-        EXPECT_TRUE(
-            mentions(refusal(square.write(test::test_folder() / "wrong.glb")), "KHR_draco_mesh_compression"))
+        EXPECT_TRUE(mentions(refusal(square.write(test::test_folder() / "wrong.glb")), "KHR_draco_mesh_compression"))
             << wrong.dump();
     }
 }
@@ -140,8 +133,8 @@ struct MeshoptSquare : Square {
         padded.resize((padded.size() + 3) / 4 * 4, ' ');
         const size_t old_size = file[12] + 256u * file[13] + 65536u * file[14];
         std::vector<uint8_t> result;
-        for (const size_t word : {size_t{0x46546C67}, size_t{2}, file.size() - old_size + padded.size(),
-                                  padded.size(), size_t{0x4E4F534A}})
+        for (const size_t word :
+             {size_t{0x46546C67}, size_t{2}, file.size() - old_size + padded.size(), padded.size(), size_t{0x4E4F534A}})
             test::append_u32(result, word);
         result.insert(result.end(), padded.begin(), padded.end());
         result.insert(result.end(), file.begin() + 20 + static_cast<std::ptrdiff_t>(old_size), file.end());
@@ -171,8 +164,7 @@ TEST(DecodeMeshopt, FiltersAreApplied) {
     meshopt_encodeFilterExp(filtered.data(), 4, 12, 15, positions.data());
     std::vector<uint8_t> bytes(meshopt_encodeVertexBufferBound(4, 12));
     bytes.resize(meshopt_encodeVertexBuffer(bytes.data(), bytes.size(), filtered.data(), 4, 12));
-    square.describe(0, bytes,
-                    {{"mode", "ATTRIBUTES"}, {"filter", "EXPONENTIAL"}, {"byteStride", 12}, {"count", 4}}, 0);
+    square.describe(0, bytes, {{"mode", "ATTRIBUTES"}, {"filter", "EXPONENTIAL"}, {"byteStride", 12}, {"count", 4}}, 0);
     expect_near(bounds(read_gltf(square.write_both())).high, Vec3(4, 4, 0), 0);
 }
 
@@ -200,8 +192,7 @@ TEST(DecodeMeshopt, SillyDescriptionsAreErrors) {
     for (const auto& [key, value] : wrong) {
         MeshoptSquare square;
         square.vertices[key] = value;
-        EXPECT_TRUE(mentions(refusal(square.write_both()), "EXT_meshopt_compression"))
-            << key << " " << value.dump();
+        EXPECT_TRUE(mentions(refusal(square.write_both()), "EXT_meshopt_compression")) << key << " " << value.dump();
     }
     MeshoptSquare five_corners;
     five_corners.indices["count"] = 5;

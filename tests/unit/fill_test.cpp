@@ -83,7 +83,8 @@ TEST(Fill, IsMirroredWhenTheMapIs) {  // scan order must not show
             map.state.at(at, y) = TexelState::covered;
             map.visibility.at(at, y) = static_cast<float>(i % 13) / 16.f;
         }
-        std::sort(map.texels.texels.begin(), map.texels.texels.end(), [](auto& a, auto& b) { return a.index < b.index; });
+        std::sort(map.texels.texels.begin(), map.texels.texels.end(),
+                  [](auto& a, auto& b) { return a.index < b.index; });
         fill(map.atlas, map.texels, map.visibility, map.state);
         return map;
     };

@@ -64,8 +64,8 @@ class GlbBuilder {
         text.resize((text.size() + 3) / 4 * 4, ' ');
         binary_.resize((binary_.size() + 3) / 4 * 4);
         std::vector<uint8_t> file;
-        for (const size_t word : {size_t{0x46546C67}, size_t{2}, 28 + text.size() + binary_.size(), text.size(),
-                                  size_t{0x4E4F534A}})
+        for (const size_t word :
+             {size_t{0x46546C67}, size_t{2}, 28 + text.size() + binary_.size(), text.size(), size_t{0x4E4F534A}})
             append_u32(file, word);
         file.insert(file.end(), text.begin(), text.end());
         append_u32(file, binary_.size());
@@ -118,7 +118,8 @@ class GlbFile {
         const auto bytes = view(accessor["bufferView"].get<size_t>());
         const size_t stride = view_json.value("byteStride", element);
         const size_t begin = accessor.value("byteOffset", size_t{0});
-        for (size_t i = 0; i < result.size(); ++i) std::memcpy(result[i].data(), &bytes.at(begin + i * stride), element);
+        for (size_t i = 0; i < result.size(); ++i)
+            std::memcpy(result[i].data(), &bytes.at(begin + i * stride), element);
         return result;
     }
 

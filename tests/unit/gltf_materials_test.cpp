@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/scene/gltf_materials.h"
 
-#include <gtest/gtest.h>
-
 #include "tests/unit/square_glb.h"
+
+#include <gtest/gtest.h>
 
 namespace surimi {
 namespace {
@@ -60,8 +60,7 @@ struct TexturedSquare : Square {
         json["images"] = {{{"uri", std::string("data:image/png;base64,") + pixel_base64}}};
         json["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33648}}};
         json["textures"] = {{{"source", 0}, {"sampler", 0}}};
-        json["materials"] = {
-            {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}, {"texCoord", 1}}}}}}};
+        json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}, {"texCoord", 1}}}}}}};
         primitive["material"] = 0;
     }
     Json& texture() { return json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]; }

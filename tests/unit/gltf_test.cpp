@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/scene/gltf.h"
 
+#include "tests/unit/square_glb.h"
+
 #include <gtest/gtest.h>
 
 #include <limits>
-
-#include "tests/unit/square_glb.h"
 
 namespace surimi {
 namespace {
@@ -47,8 +47,7 @@ TEST(ReadGltf, IndicesOfEveryWidth) {
 TEST(ReadGltf, WithoutIndicesVerticesAreInOrder) {
     Square square;
     square.primitive.erase("indices");
-    square.primitive["attributes"]["POSITION"] =
-        square.add_floats({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}, "VEC3");
+    square.primitive["attributes"]["POSITION"] = square.add_floats({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}, "VEC3");
     const Scene scene = square.read();
     EXPECT_EQ(triangle_count(scene), 1u);
     EXPECT_EQ(note_count(scene, "left-over indices"), 1u);
@@ -58,8 +57,7 @@ TEST(ReadGltf, StripsAndFansKeepTheirFront) {
     for (const int mode : {5, 6}) {
         Square square;
         square.primitive["mode"] = mode;
-        square.primitive["indices"] =
-            mode == 5 ? square.add_indices({0, 1, 3, 2}) : square.add_indices({0, 1, 2, 3});
+        square.primitive["indices"] = mode == 5 ? square.add_indices({0, 1, 3, 2}) : square.add_indices({0, 1, 2, 3});
         const Scene scene = square.read();
         ASSERT_EQ(triangle_count(scene), 2u) << mode;
         for (size_t t = 0; t < 2; ++t) expect_near(face_normal(scene.surfaces[0], t), Vec3(0, 0, 1));
@@ -82,8 +80,7 @@ TEST(ReadGltf, PointsAndLinesAreCountedAndSkipped) {
 
 TEST(ReadGltf, MirroredNodeKeepsTheFrontOutside) {
     Square square;
-    square.primitive["attributes"]["NORMAL"] =
-        square.add_floats({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
+    square.primitive["attributes"]["NORMAL"] = square.add_floats({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
     square.json["nodes"][0]["scale"] = {-2, 1, 1};
     const Scene scene = square.read();
     for (size_t t = 0; t < 2; ++t) expect_near(face_normal(scene.surfaces[0], t), Vec3(0, 0, 1));
@@ -92,8 +89,7 @@ TEST(ReadGltf, MirroredNodeKeepsTheFrontOutside) {
 
 TEST(ReadGltf, MirrorAlongTheNormalTurnsIt) {
     Square square;
-    square.primitive["attributes"]["NORMAL"] =
-        square.add_floats({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
+    square.primitive["attributes"]["NORMAL"] = square.add_floats({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
     square.json["nodes"][0]["scale"] = {1, 1, -1};
     const Scene scene = square.read();
     expect_near(face_normal(scene.surfaces[0], 0), Vec3(0, 0, -1));
@@ -102,8 +98,7 @@ TEST(ReadGltf, MirrorAlongTheNormalTurnsIt) {
 
 TEST(ReadGltf, NormalsSurviveAFlatteningScale) {
     Square square;
-    square.primitive["attributes"]["NORMAL"] =
-        square.add_floats({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
+    square.primitive["attributes"]["NORMAL"] = square.add_floats({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
     square.json["nodes"][0]["scale"] = {1, 1, 0};
     const Scene scene = square.read();
     EXPECT_EQ(triangle_count(scene), 2u);
@@ -167,8 +162,7 @@ TEST(ReadGltf, OnlyTheShownSceneMakesSurfaces) {
 TEST(ReadGltf, BadNormalsAreRepaired) {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
     Square square;
-    square.primitive["attributes"]["NORMAL"] =
-        square.add_floats({0, 0, 5, 0, 0, 0, nan, 0, 1, 0, 0, 1}, "VEC3");
+    square.primitive["attributes"]["NORMAL"] = square.add_floats({0, 0, 5, 0, 0, 0, nan, 0, 1, 0, 0, 1}, "VEC3");
     const Scene scene = square.read();
     for (const Vec3& normal : scene.surfaces[0].normals) expect_near(normal, Vec3(0, 0, 1));
     EXPECT_EQ(note_count(scene, "renormalised"), 1u);
@@ -179,8 +173,7 @@ TEST(ReadGltf, QuantisedAttributes) {
     Square square;
     square.json["extensionsRequired"] = {"KHR_mesh_quantization"};
     square.primitive["attributes"] = {
-        {"POSITION",
-         square.add<uint16_t>({0, 0, 0, 65535, 0, 0, 65535, 65535, 0, 0, 65535, 0}, 5123, "VEC3")},
+        {"POSITION", square.add<uint16_t>({0, 0, 0, 65535, 0, 0, 65535, 65535, 0, 0, 65535, 0}, 5123, "VEC3")},
         {"TEXCOORD_0", square.add<uint16_t>({0, 0, 65535, 0, 65535, 65535, 0, 65535}, 5123, "VEC2")}};
     for (const int accessor : {2, 3}) square.json["accessors"][accessor]["normalized"] = true;
     square.json["nodes"][0]["scale"] = {4, 4, 4};
@@ -212,8 +205,7 @@ TEST(ReadGltf, WrongBoundsAreIgnoredAndCounted) {
 
 TEST(ReadGltf, MorphTargetsAtTheirDefaultWeights) {
     Square square;
-    square.primitive["targets"] = {
-        {{"POSITION", square.add_floats({0, 0, 2, 0, 0, 2, 0, 0, 2, 0, 0, 2}, "VEC3")}}};
+    square.primitive["targets"] = {{{"POSITION", square.add_floats({0, 0, 2, 0, 0, 2, 0, 0, 2, 0, 0, 2}, "VEC3")}}};
     square.json["meshes"][0]["weights"] = {0.5};
     expect_near(square.read().surfaces[0].positions[0], Vec3(0, 0, 1));
     square.json["nodes"][0]["weights"] = {1.0};
@@ -249,8 +241,7 @@ TEST(ReadGltf, SkinIgnoresTheNodeAndFollowsTheJoints) {
 
 TEST(ReadGltf, JointOutOfRangeIsAnError) {
     Square square;
-    square.primitive["attributes"]["JOINTS_0"] =
-        square.add<uint8_t>(std::vector<uint8_t>(16, 9), 5121, "VEC4");
+    square.primitive["attributes"]["JOINTS_0"] = square.add<uint8_t>(std::vector<uint8_t>(16, 9), 5121, "VEC4");
     square.primitive["attributes"]["WEIGHTS_0"] = square.add_floats(std::vector<float>(16, 0.25f), "VEC4");
     square.json["nodes"] = {{{"mesh", 0}, {"skin", 0}}};
     square.json["skins"] = {{{"joints", {0}}}};
@@ -258,15 +249,12 @@ TEST(ReadGltf, JointOutOfRangeIsAnError) {
 }
 
 TEST(ReadGltf, PositionsThatAreNotFiniteAreAnErrorWithPlace) {
-    for (const float bad :
-         {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()}) {
+    for (const float bad : {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()}) {
         Square square;
         square.json["meshes"][0]["name"] = "Chair";
-        square.primitive["attributes"]["POSITION"] =
-            square.add_floats({0, 0, 0, bad, 0, 0, 1, 1, 0, 0, 1, 0}, "VEC3");
+        square.primitive["attributes"]["POSITION"] = square.add_floats({0, 0, 0, bad, 0, 0, 1, 1, 0, 0, 1, 0}, "VEC3");
         const std::string message = refusal(square.write(test::test_folder() / "infinite.glb"));
-        for (const char* part :
-             {"infinite.glb", "mesh 0 (Chair)", "primitive 0", "POSITION", "accessor 2", "vertex 1"})
+        for (const char* part : {"infinite.glb", "mesh 0 (Chair)", "primitive 0", "POSITION", "accessor 2", "vertex 1"})
             EXPECT_TRUE(mentions(message, part)) << part << " in " << message;
     }
 }
@@ -275,8 +263,7 @@ TEST(ReadGltf, WorldPositionsThatOverflowAreAnError) {
     Square square;
     square.json["nodes"][0] = {{"children", {1}}, {"scale", {1e300, 1e300, 1e300}}};
     square.json["nodes"].push_back({{"mesh", 0}, {"scale", {1e300, 1e300, 1e300}}});
-    EXPECT_TRUE(
-        mentions(refusal(square.write(test::test_folder() / "overflow.glb")), "not finite in the world"));
+    EXPECT_TRUE(mentions(refusal(square.write(test::test_folder() / "overflow.glb")), "not finite in the world"));
 }
 
 TEST(ReadGltf, FilesWithSpacesAndEscapesAreFound) {
@@ -302,8 +289,7 @@ TEST(ReadGltf, MissingBufferIsAnErrorThatNamesIt) {
     const std::filesystem::path path = test::test_folder() / "scene.gltf";
     std::ofstream(path) << R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":36,"uri":"gone.bin"}]})";
     EXPECT_TRUE(mentions(refusal(path), "gone.bin"));
-    std::ofstream(path)
-        << R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":36,"uri":"/etc/hostname"}]})";
+    std::ofstream(path) << R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":36,"uri":"/etc/hostname"}]})";
     EXPECT_TRUE(mentions(refusal(path), "absolute"));
 }
 
@@ -311,8 +297,7 @@ TEST(ReadGltf, RequiredExtensionsThatWeCannotReadAreNamedWithACommand) {
     Square square;
     square.json["extensionsRequired"] = {"EXT_unheard_of"};
     const std::string message = refusal(square.write(test::test_folder() / "required.glb"));
-    EXPECT_TRUE(mentions(message, "EXT_unheard_of") && mentions(message, "npx @gltf-transform/cli"))
-        << message;
+    EXPECT_TRUE(mentions(message, "EXT_unheard_of") && mentions(message, "npx @gltf-transform/cli")) << message;
     square.json["extensionsRequired"] = {"KHR_materials_sheen", "KHR_lights_punctual"};
     EXPECT_EQ(triangle_count(square.read()), 2u);
 }

@@ -101,7 +101,7 @@ TEST(LookUp, IsBilinearAndClampsAtTheBorder) {
     VisibilityMap map;
     map.visibility = Image<Vec3f>(2, 2);
     map.visibility.at(1, 0) = Vec3f(1);
-    EXPECT_EQ(look_up(map, {0.75, 0.25}), Vec3(1));   // the middle of the upper right texel
+    EXPECT_EQ(look_up(map, {0.75, 0.25}), Vec3(1));  // the middle of the upper right texel
     EXPECT_EQ(look_up(map, {0.5, 0.25}), Vec3(0.5));
     EXPECT_EQ(look_up(map, {0.5, 0.5}), Vec3(0.25));
     EXPECT_EQ(look_up(map, {5, -3}), Vec3(1));

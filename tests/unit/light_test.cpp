@@ -43,7 +43,8 @@ TEST(MonitorSampler, SpreadsPointsEvenlyOverPanelsOfAllShapes) {
 }
 
 TEST(MonitorSampler, EndpointsOfTheUnitSquareStayOnThePanels) {
-    const MonitorSampler sampler(monitor_of({{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}, {{{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}}}));
+    const MonitorSampler sampler(
+        monitor_of({{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}, {{{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}}}));
     for (const double u : {0.0, 0.5, std::nextafter(1.0, 0.0)})
         for (const double v : {0.0, std::nextafter(1.0, 0.0)}) {
             const Vec3 p = sampler.sample(u, v).position;

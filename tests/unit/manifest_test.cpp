@@ -49,7 +49,9 @@ struct SmallBake {
         bake.costs = {{"unwrap", 0.5, 0, 1000}, {"light from Screen", 2, 77, 2000}};
         bake.warnings = {"Screen faces a wall"};
     }
-    std::string text() const { return make_manifest(scene, bake, R"({"samples":64})", "fnv1a64:00000000000000ff", files); }
+    std::string text() const {
+        return make_manifest(scene, bake, R"({"samples":64})", "fnv1a64:00000000000000ff", files);
+    }
 };
 
 TEST(Manifest, TellsWhatWasMadeFromWhat) {

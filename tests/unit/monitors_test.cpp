@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/scene/monitors.h"
 
+#include "runtime/base/error.h"
+#include "runtime/scene/monitor_candidates.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
-
-#include "runtime/base/error.h"
-#include "runtime/scene/monitor_candidates.h"
 
 namespace surimi {
 namespace {
@@ -66,9 +66,8 @@ std::string refusal(Scene& scene, const MonitorRequest& request, ErrorKind kind)
 }
 
 size_t note_count(const Scene& scene, const std::string& part) {
-    return static_cast<size_t>(std::count_if(scene.notes.begin(), scene.notes.end(), [&](const Note& n) {
-        return n.what.find(part) != std::string::npos;
-    }));
+    return static_cast<size_t>(std::count_if(scene.notes.begin(), scene.notes.end(),
+                                             [&](const Note& n) { return n.what.find(part) != std::string::npos; }));
 }
 
 bool mentions(const std::string& text, const std::string& part) {
@@ -170,8 +169,7 @@ TEST(MonitorExtras, EmptyNodeWithSizeIsARectangleFacingItsZ) {
     Scene scene;
     Node& node = add_empty(scene, "empty");
     node.monitor_size = Vec2(4, 2);
-    node.to_world =
-        Mat4(0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 5, 1, 0, 1);  // +z of the node is +x of the world
+    node.to_world = Mat4(0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 5, 1, 0, 1);  // +z of the node is +x of the world
     found(scene);
     const Polygon& panel = scene.monitors[0].panels.at(0);
     EXPECT_NEAR(area(panel), 8, 1e-12);
@@ -223,13 +221,11 @@ TEST(AutomaticMonitors, RectanglesByFlux) {
 TEST(AutomaticMonitors, MoreThanThreeListsThemWithTheLineToPaste) {
     Scene scene;
     double nits = 0;
-    for (const char* name : {"a", "b c", "d", "e"})
-        make_emissive(scene, add_rectangle(scene, name), Vec3(++nits));
+    for (const char* name : {"a", "b c", "d", "e"}) make_emissive(scene, add_rectangle(scene, name), Vec3(++nits));
     const std::string message = refusal(scene, {}, ErrorKind::nothing_to_bake);
     EXPECT_TRUE(mentions(message, "4 monitors"));
     EXPECT_TRUE(mentions(message, "--monitor e --monitor d --monitor 'b c'")) << message;
-    EXPECT_TRUE(mentions(message, "a: flux 25.13 lm, area 4 m2"))
-        << message;  // luminance 2, 4 square metres, pi
+    EXPECT_TRUE(mentions(message, "a: flux 12.57 lm, area 4 m2")) << message;  // 1 nit, 4 square metres, pi
 }
 
 TEST(AutomaticMonitors, ShapesThatAreNoRectanglesAreNotedAndListed) {
@@ -264,25 +260,21 @@ TEST(SelectedMonitors, NamesThatMatchNothingAreUsageErrors) {
     Scene scene;
     add_rectangle(scene, "Television");
     add_empty(scene, "empty");
-    EXPECT_TRUE(mentions(refusal(scene, {{{"Televison", {}}}, {}, {}}, ErrorKind::usage),
-                         "nearest is \"Television\""));
+    EXPECT_TRUE(mentions(refusal(scene, {{{"Televison", {}}}, {}, {}}, ErrorKind::usage), "nearest is \"Television\""));
     EXPECT_TRUE(mentions(refusal(scene, {{{"empty", {}}}, {}, {}}, ErrorKind::usage), "no surface"));
 }
 
 TEST(SelectedMonitors, TwoForOneChannelAreRefused) {
     Scene scene;
     for (const char* name : {"a", "b"}) add_rectangle(scene, name);
-    EXPECT_TRUE(mentions(refusal(scene, {{{"a", 1}, {"b", 1}}, {}, {}}, ErrorKind::nothing_to_bake),
-                         "both claim channel G"));
+    EXPECT_TRUE(
+        mentions(refusal(scene, {{{"a", 1}, {"b", 1}}, {}, {}}, ErrorKind::nothing_to_bake), "both claim channel G"));
 }
 
 TEST(SelectedMonitors, RectanglesOfTheConfiguration) {
     Scene scene;
     MonitorRectangles wall{
-        "wall",
-        1,
-        Vec3(3),
-        {{Vec3(0), Vec3(1, 0, 0), Vec3(0, 2, 0)}, {Vec3(2, 0, 0), Vec3(1, 0, 0), Vec3(0, 2, 0)}}};
+        "wall", 1, Vec3(3), {{Vec3(0), Vec3(1, 0, 0), Vec3(0, 2, 0)}, {Vec3(2, 0, 0), Vec3(1, 0, 0), Vec3(0, 2, 0)}}};
     EXPECT_EQ(found(scene, {{}, {}, {wall}}), (Names{"-", "wall", "-"}));
     EXPECT_NEAR(area(scene.monitors[0]), 16, 1e-12);
     EXPECT_EQ(front_normal(scene.monitors[0].panels[0]), Vec3(0, 0, 1));

@@ -60,8 +60,7 @@ void expect_gaps(const std::vector<std::vector<Mask>>& charts, const std::vector
                 for (int v = std::max(0, y - gutter); v <= std::min(map.height - 1, y + gutter); ++v)
                     for (int u = std::max(0, x - gutter); u <= std::min(map.width - 1, x + gutter); ++u) {
                         const int other = grid[static_cast<size_t>(v)][static_cast<size_t>(u)];
-                        ASSERT_TRUE(other < 0 || other == static_cast<int>(i))
-                            << "charts " << other << " and " << i;
+                        ASSERT_TRUE(other < 0 || other == static_cast<int>(i)) << "charts " << other << " and " << i;
                     }
                 grid[static_cast<size_t>(y)][static_cast<size_t>(x)] = static_cast<int>(i);
             }

@@ -20,10 +20,8 @@ std::vector<Triangle> grid(int n) {
             return Vec3(static_cast<double>(i % n + x) / n, static_cast<double>(i / n + y) / n, 0);
         };
         const bool is_odd = (i % n + i / n) % 2 == 1;
-        triangles.push_back(is_odd ? triangle(at(0, 0), at(1, 0), at(0, 1))
-                                   : triangle(at(0, 0), at(1, 0), at(1, 1)));
-        triangles.push_back(is_odd ? triangle(at(1, 0), at(1, 1), at(0, 1))
-                                   : triangle(at(0, 0), at(1, 1), at(0, 1)));
+        triangles.push_back(is_odd ? triangle(at(0, 0), at(1, 0), at(0, 1)) : triangle(at(0, 0), at(1, 0), at(1, 1)));
+        triangles.push_back(is_odd ? triangle(at(1, 0), at(1, 1), at(0, 1)) : triangle(at(0, 0), at(1, 1), at(0, 1)));
     }
     return triangles;
 }
@@ -46,8 +44,7 @@ TEST(MakePolygons, AFinelyCutRectangleIsOnePolygon) {
 TEST(MakePolygons, SharedCornersMayBeRounded) {
     std::vector<Triangle> triangles = grid(4);
     for (size_t t = 0; t < triangles.size(); ++t)
-        for (Vec3& p : triangles[t])
-            p = Vec3(Vec3f(p * 1.7 + Vec3(10.1, -3.3, 7.7)));  // as a file would store it
+        for (Vec3& p : triangles[t]) p = Vec3(Vec3f(p * 1.7 + Vec3(10.1, -3.3, 7.7)));  // as a file would store it
     EXPECT_EQ(make_polygons(triangles).size(), 1u);
 }
 

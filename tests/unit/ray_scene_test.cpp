@@ -9,7 +9,9 @@
 namespace surimi {
 namespace {
 
-SurfacePoint middle(const Scene& scene, uint32_t surface) { return surface_point(scene, {surface, 0}, Vec3(1.0 / 3)); }
+SurfacePoint middle(const Scene& scene, uint32_t surface) {
+    return surface_point(scene, {surface, 0}, Vec3(1.0 / 3));
+}
 
 TEST(RayScene, SeesTheNearestSurfaceAndItsSide) {
     Scene scene;

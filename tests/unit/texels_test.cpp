@@ -100,7 +100,8 @@ TEST(TexelSurface, SpreadsSamplesEvenlyByArea_M8) {
     flat.add({0, 0}, {8, 0}, {8, 8});
     flat.add({0, 0}, {8, 8}, {0, 8});
     // The second triangle is steep: twice the surface under the same texel.
-    for (size_t v = 3; v < 6; ++v) flat.scene.surfaces[0].positions[v].z = std::sqrt(3.0) * flat.scene.surfaces[0].positions[v].x;
+    for (size_t v = 3; v < 6; ++v)
+        flat.scene.surfaces[0].positions[v].z = std::sqrt(3.0) * flat.scene.surfaces[0].positions[v].x;
     const Texels texels = find_texels(flat.scene, flat.atlas);
     const TexelSurface surface(flat.scene, flat.atlas, texels, texels.texels[0]);
     EXPECT_NEAR(surface.area(), 0.5 + 0.5 * 2, 1e-6);

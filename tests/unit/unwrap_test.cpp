@@ -95,14 +95,12 @@ TEST(Unwrap, DensityIsAreaTrueOnCurvedCharts) {
     for (size_t t = 0; t < ball_surface.triangles.size(); ++t) {
         const auto& c = ball_surface.triangles[t];
         const uint32_t chart = atlas.surfaces[0].chart[t];
-        space[chart] +=
-            0.5 * glm::length(area_normal(ball_surface.positions[c[0]], ball_surface.positions[c[1]],
-                                          ball_surface.positions[c[2]]));
+        space[chart] += 0.5 * glm::length(area_normal(ball_surface.positions[c[0]], ball_surface.positions[c[1]],
+                                                      ball_surface.positions[c[2]]));
         flat[chart] += uv_area({{atlas.surfaces[0].uv[t]}, {}}) * 256 * 256;
     }
     for (size_t c = 0; c < space.size(); ++c) {
-        EXPECT_NEAR(std::sqrt(flat[c] / space[c]), atlas.charts[c].texels_per_metre,
-                    1e-4 * atlas.texels_per_metre);
+        EXPECT_NEAR(std::sqrt(flat[c] / space[c]), atlas.charts[c].texels_per_metre, 1e-4 * atlas.texels_per_metre);
         EXPECT_DOUBLE_EQ(atlas.charts[c].texels_per_metre, atlas.texels_per_metre);
     }
 }
