@@ -97,7 +97,7 @@ View choose_view(const Scene& scene, const VisibilityMap& map, const RayScene& r
     const double aspect = static_cast<double>(options.size[0]) / options.size[1];
     const bool has_target = !options.look_at.empty();
     View view;
-    if (options.camera.size() == 1) {
+    if (options.camera.size() == 1 && options.camera[0] != "auto") {
         view = view_of(camera_named(scene, options.camera[0]));
     } else if (options.camera.empty() && !scene.cameras.empty()) {
         view = view_of(scene.cameras.front());
@@ -168,8 +168,8 @@ Run add_preview_command(CLI::App& app) {
         ->type_name("FILE");
     command
         ->add_option("--camera", options->camera,
-                     "A camera of the scene by name, or a place [the first, else automatic]")
-        ->type_name("NAME | X Y Z")
+                     "A camera of the scene by name, a place, or auto [the first, else auto]")
+        ->type_name("NAME | X Y Z | auto")
         ->expected(1, 3);
     command->add_option("--look-at", options->look_at, "Look towards this place")->type_name("X Y Z")->expected(3);
     command->add_option("--fov", options->yfov_degrees, "Vertical field of view in degrees, 1 to 170")

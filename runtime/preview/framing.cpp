@@ -34,10 +34,10 @@ void add_candidates(const RayScene& rays, const Monitor& monitor, double size, s
     }
 }
 
-/// How much a tiny picture shows: lit surface in many shades, some emission, nothing too near.
+/// How much a tiny picture shows: lit surface in many shades, a monitor, nothing nearer than `near_distance` metres.
 double score(const Scene& scene, const VisibilityMap& map, const RayScene& rays, const View& view, double aspect,
-             double size) {
-    constexpr int width = 32, height = 18;
+             double near_distance) {
+    constexpr int width = 48, height = 27;
     double lit = 0, glowing = 0, near = 0;
     std::vector<double> levels;
     for (int y = 0; y < height; ++y) {
@@ -45,7 +45,7 @@ double score(const Scene& scene, const VisibilityMap& map, const RayScene& rays,
             const Vec3 direction = ray_direction(view, (x + 0.5) / width, (y + 0.5) / height, aspect);
             const Seen seen = see(scene, map, rays, view.eye, direction, Show::lit);
             const double level = luminance(seen.color);
-            if (seen.distance < 0.4 * size) near += 1;
+            if (seen.distance < near_distance) near += 1;
             if (seen.is_surface && level > 0) lit += 1, levels.push_back(std::log2(level));
             if (!seen.is_surface && level > 0) glowing += 1;
         }
@@ -54,7 +54,8 @@ double score(const Scene& scene, const VisibilityMap& map, const RayScene& rays,
     const double pixels = width * height;
     // Four stops between dark and bright are a well-modelled picture; more adds nothing.
     const double spread = levels.empty() ? 0 : levels[levels.size() * 9 / 10] - levels[levels.size() / 10];
-    return lit / pixels + 0.15 * std::min(spread, 4.0) + 2 * std::min(glowing / pixels, 0.12) - 1.5 * near / pixels;
+    const double monitor = glowing > 0 ? 0.2 + 2 * std::min(glowing / pixels, 0.12) : 0;
+    return lit / pixels + 0.15 * std::min(spread, 4.0) + monitor - 1.5 * near / pixels;
 }
 
 }  // namespace
@@ -67,14 +68,16 @@ View frame_automatically(const Scene& scene, const VisibilityMap& map, const Ray
         size = std::max(size, own_size);
         add_candidates(rays, monitor, own_size, candidates);
     }
+    const Bounds box = bounds(scene);
     if (candidates.empty()) {  // no monitor: the whole scene from outside
-        const Bounds box = bounds(scene);
         const Vec3 center = 0.5 * (box.low + box.high);
         return look_at(center + glm::length(box.high - box.low) * Vec3(0.6, 0.5, 0.8), center, framing_yfov);
     }
+    // What is nearer than a tenth of the room hides it; a ground plane that dwarfs the room must not set that scale.
+    const double near_distance = std::min(0.1 * glm::length(box.high - box.low), size);
     std::vector<double> scores(candidates.size());
     parallel_for(candidates.size(), 1,
-                 [&](size_t i) { scores[i] = score(scene, map, rays, candidates[i], aspect, size); });
+                 [&](size_t i) { scores[i] = score(scene, map, rays, candidates[i], aspect, near_distance); });
     return candidates[static_cast<size_t>(std::max_element(scores.begin(), scores.end()) - scores.begin())];
 }
 

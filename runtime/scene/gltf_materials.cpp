@@ -106,9 +106,15 @@ void read_visibility_map(const GltfDocument& document, const json& source, Mater
         if (channels.is_array() && channels[c].is_string())
             material.visibility_channels[c] = channels[c].get<std::string>();
     material.visibility_is_srgb = member(map, "encoding") == "srgb";
-    // Tools renumber textures and UV sets, but only in the carrier.
-    const json& carrier = member(member(source, "extensions"), "KHR_materials_clearcoat");
-    material.visibility_map = read_texture_use(document, member(carrier, "clearcoatTexture"));
+    // Tools renumber textures and UV sets, but only in the carrier: sheen where the material has a clearcoat of its
+    // own.
+    const json& extensions = member(source, "extensions");
+    const json& sheen = member(extensions, "KHR_materials_sheen");
+    const json& clearcoat = member(extensions, "KHR_materials_clearcoat");
+    const bool is_on_clearcoat =
+        number_or(clearcoat, "clearcoatFactor", 0) == 0 && !member(clearcoat, "clearcoatTexture").is_null();
+    material.visibility_map = is_on_clearcoat ? read_texture_use(document, member(clearcoat, "clearcoatTexture"))
+                                              : read_texture_use(document, member(sheen, "sheenColorTexture"));
 }
 
 Material read_material(const GltfDocument& document, const json& source) {

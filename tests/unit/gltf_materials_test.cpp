@@ -92,8 +92,7 @@ TEST(ReadMaterials, TextureTransformIsThatOfTheSpecificationsExample) {
         {"offset", {0, 1}}, {"rotation", pi / 2}, {"scale", {0.5, 0.5}}, {"texCoord", 0}};
     const TextureUse use = square.read().materials[0].base_color_texture;
     EXPECT_EQ(use.uv_set, 0);
-    // "utilizes only the lower left quadrant of the source image, rotated clockwise by 90 degrees"; v points
-    // down.
+    // The extension's own example: the lower left quarter of the image, turned clockwise by 90 degrees; v points down.
     expect_near(use.transform * Vec3(0, 0, 1), Vec3(0, 1, 1));
     expect_near(use.transform * Vec3(1, 0, 1), Vec3(0, 0.5, 1));
     expect_near(use.transform * Vec3(0, 1, 1), Vec3(0.5, 1, 1));
@@ -110,6 +109,18 @@ TEST(ReadMaterials, CarriedVisibilityMapTakesItsTextureFromTheCarrier) {
     EXPECT_EQ(m.visibility_map.uv_set, 1);
     EXPECT_TRUE(m.visibility_is_srgb);
     EXPECT_EQ(m.visibility_channels, (std::array<std::string, 3>{"Monitor_R", "", "Monitor_B"}));
+}
+
+TEST(ReadMaterials, CarriedVisibilityMapIsOnSheenWhereTheMaterialHasAClearcoat) {
+    TexturedSquare square;
+    square.json["materials"][0]["extensions"] = {
+        {"KHR_materials_clearcoat", {{"clearcoatFactor", 0.5}, {"clearcoatTexture", {{"index", 7}, {"texCoord", 0}}}}},
+        {"KHR_materials_sheen",
+         {{"sheenColorFactor", {0, 0, 0}}, {"sheenColorTexture", {{"index", 0}, {"texCoord", 1}}}}}};
+    square.json["materials"][0]["extras"]["visibilityMap"] = {{"version", 1}, {"encoding", "srgb"}};
+    const Material m = square.read().materials[0];
+    EXPECT_EQ(m.visibility_map.image, 0);
+    EXPECT_EQ(m.visibility_map.uv_set, 1);
 }
 
 TEST(ReadMaterials, MissingAndForeignImagesAreNotes) {
