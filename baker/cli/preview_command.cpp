@@ -6,6 +6,7 @@
 #include <charconv>
 #include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "baker/cli/commands.h"
 #include "baker/cli/options.h"
@@ -121,7 +122,9 @@ void write_picture(const std::filesystem::path& path, const Picture& picture, Sh
     if (path.extension() == ".exr") {
         Channels channels{picture.pixels.width, picture.pixels.height, {"R", "G", "B"}, {}};
         for (const Vec3f& p : picture.pixels.pixels) channels.values.insert(channels.values.end(), {p.x, p.y, p.z});
-        write_exr(path, channels, ExrDepth::half);
+        PendingFiles pending;
+        write_exr(pending.add(path), channels, ExrDepth::half);
+        pending.commit();
     } else {
         write_file(path, encode_png(to_display(picture, show, exposure)));
     }
@@ -147,10 +150,23 @@ int preview(const PreviewOptions& options) {
         render(scene, map, rays, view, settings, make_progress(options.given.progress, options.given.quiet));
     const double exposure = options.exposure ? std::exp2(*options.exposure) : automatic_exposure(picture);
     write_picture(options.out, picture, settings.show, exposure);
+    const double stops = std::log2(exposure);
+    if (options.given.json) {
+        const auto json = [](const Vec3& v) { return nlohmann::ordered_json{v.x, v.y, v.z}; };
+        const nlohmann::ordered_json report{{"file", options.out.string()},
+                                            {"eye", json(view.eye)},
+                                            {"forward", json(view.forward)},
+                                            {"exposure", stops}};
+        fmt::print("{}\n", report.dump(2));
+        return 0;
+    }
     if (!options.given.quiet)
         fmt::print(stderr, "camera ({:.3f}, {:.3f}, {:.3f}) towards ({:.3f}, {:.3f}, {:.3f}), exposure {:+.2f} EV\n",
-                   view.eye.x, view.eye.y, view.eye.z, view.forward.x, view.forward.y, view.forward.z,
-                   std::log2(exposure));
+                   view.eye.x, view.eye.y, view.eye.z, view.forward.x, view.forward.y, view.forward.z, stops);
+    if (!options.given.quiet && settings.show == Show::lit && picture.lit_share < 0.1)
+        fmt::print(stderr,
+                   "note: only {:.2g} % of the picture shows lit surface; --camera auto looks for a better view\n",
+                   100 * picture.lit_share);
     fmt::print("{}\n", options.out.string());
     return 0;
 }

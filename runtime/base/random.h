@@ -24,13 +24,6 @@ constexpr double unit_double(uint64_t bits) {
     return static_cast<double>(bits >> 11) * 0x1p-53;
 }
 
-/// A small sequential generator for tests and set-up; items of parallel loops use `hash` of their own key.
-struct Random {
-    uint64_t key = 0;
-    uint64_t counter = 0;
-    constexpr double next() { return unit_double(hash(key, counter++)); }
-};
-
 namespace sobol {
 
 constexpr uint32_t reverse_bits(uint32_t x) {

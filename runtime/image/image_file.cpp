@@ -109,12 +109,6 @@ std::vector<uint8_t> encode_png(const Image<glm::u8vec3>& image) {
     return bytes;
 }
 
-void write_png(const std::filesystem::path& path, const Image<glm::u8vec3>& image) {
-    const std::vector<uint8_t> bytes = encode_png(image);
-    OIIO::Filesystem::IOFile file(path.string(), OIIO::Filesystem::IOProxy::Write);
-    if (!file.opened() || file.write(bytes.data(), bytes.size()) != bytes.size()) fail_to_write(path, file.error());
-}
-
 double srgb_from_linear(double linear) {
     if (!(linear > 0)) return 0;
     if (linear >= 1) return 1;

@@ -34,9 +34,8 @@ Channels read_channels(const std::filesystem::path& path);
 /// Writes an EXR (ZIP). The bytes depend on the arguments alone. Throws Error(cannot_write).
 void write_exr(const std::filesystem::path& path, const Channels& channels, ExrDepth depth);
 
-/// Encodes 8-bit RGB as a PNG in memory / in a file; the bytes depend on the pixels alone.
+/// Encodes 8-bit RGB as a PNG; the bytes depend on the pixels alone.
 std::vector<uint8_t> encode_png(const Image<glm::u8vec3>& image);
-void write_png(const std::filesystem::path& path, const Image<glm::u8vec3>& image);
 
 /// sRGB transfer function (IEC 61966-2-1) and its inverse; both clamp to [0, 1]; NaN becomes 0.
 double srgb_from_linear(double linear);

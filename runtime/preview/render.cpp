@@ -46,6 +46,7 @@ Picture render(const Scene& scene, const VisibilityMap& map, const RayScene& ray
         }
     });
     std::erase_if(levels, [](float level) { return !(level > 0); });
+    picture.lit_share = static_cast<double>(levels.size()) / static_cast<double>(picture.pixels.pixels.size());
     picture.bright_level = percentile_95(levels);
     return picture;
 }

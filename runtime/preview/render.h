@@ -28,6 +28,7 @@ struct RenderSettings {
 
 struct Picture {
     Image<Vec3f> pixels;      ///< linear; lit: nits
+    double lit_share = 0;     ///< share of the pixels that show a surface which is lit and does not emit
     double bright_level = 0;  ///< 95th percentile of the luminance of surfaces that do not emit; 0 when none is lit
 };
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "baker/bake.h"
-#include "runtime/base/random.h"
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
 namespace surimi {

@@ -6,8 +6,8 @@
 
 #include <algorithm>
 
-#include "runtime/base/random.h"
 #include "tests/support/closed_form.h"
+#include "tests/support/random.h"
 
 namespace surimi {
 namespace {

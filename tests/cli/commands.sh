@@ -116,6 +116,7 @@ for show in lit visibility unshadowed shadowed uv texels normals; do
 done
 expect 0 "" "$surimi" preview "$work/out/home-theater.baked.glb" --map "$work/out/home-theater.visibility.exr" \
     -o "$work/lit.exr" --camera 0 1.5 0 --look-at 0 1 -3 --fov 60 --exposure 2 --size 64 36 --quiet
+expect 0 '"exposure"' "$surimi" preview "$work/out/home-theater.baked.glb" -o "$work/json.png" --json --camera auto --size 64 36 --samples 1
 expect 0 "no visibility map" "$surimi" preview "$theater" -o "$work/plain.png" --size 64 36 --samples 1
 expect 0 "charts" "$surimi" unwrap "$theater" -o "$work/uv.glb" --size 256
 expect 2 "is the input" "$surimi" unwrap "$work/uv.glb" -o "$work/uv.glb" --size 256

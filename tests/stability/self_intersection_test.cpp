@@ -2,8 +2,8 @@
 // Rays leave their surface without meeting it again, at any distance from the origin and at any grazing angle.
 #include <gtest/gtest.h>
 
-#include "runtime/base/random.h"
 #include "runtime/trace/ray_scene.h"
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
 namespace surimi {

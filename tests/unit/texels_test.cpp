@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "runtime/base/random.h"
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
 namespace surimi {
