@@ -23,7 +23,8 @@ T irradiance_of_polygon(std::span<const glm::vec<3, T>> corners, const glm::vec<
     using V = glm::vec<3, T>;
     // n . unit(a x b) * angle(a, b): one edge's share of the vector irradiance along the normal.
     const auto edge = [&](const V& a, const V& b) {
-        const V c = glm::cross(a, b);
+        // a x b by the edge and its nearer end: of two nearly equal vectors only noise would be left.
+        const V c = glm::cross(glm::dot(a, a) < glm::dot(b, b) ? a : b, b - a);
         const T sine = glm::length(c);
         return sine > 0 ? std::atan2(sine, glm::dot(a, b)) * (glm::dot(c, normal) / sine) : T(0);
     };
@@ -53,7 +54,9 @@ T irradiance_of_polygon(std::span<const glm::vec<3, T>> corners, const glm::vec<
     }
     if (is_clipped) {  // along the horizon, where the normal of every edge is +-n
         const V c = glm::cross(left, entered);
-        sum += std::copysign(std::atan2(glm::length(c), glm::dot(left, entered)), glm::dot(c, normal));
+        const T sine = glm::length(c), cosine = glm::dot(left, entered);
+        // Both are 0 for a corner at the point; atan2(0, -0) would be pi.
+        if (sine > 0 || cosine < 0) sum += std::copysign(std::atan2(sine, cosine), glm::dot(c, normal));
     }
     // Seen from the front, counter-clockwise corners circle the direction to the polygon clockwise.
     const T irradiance = -sum / 2;
