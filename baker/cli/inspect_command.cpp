@@ -19,10 +19,6 @@ Json as_json(const Vec3& v) {
     return {v.x, v.y, v.z};
 }
 
-double luminance(const Vec3& c) {
-    return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
-}
-
 Json monitor_json(const Monitor& monitor) {
     Json panels = Json::array();
     for (const Polygon& panel : monitor.panels) {

@@ -32,6 +32,11 @@ inline bool is_finite(const Vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
+/// Luminance of a linear colour, Rec. 709.
+inline double luminance(const Vec3& color) {
+    return glm::dot(color, Vec3(0.2126, 0.7152, 0.0722));
+}
+
 /// Twice the area times the unit normal of the triangle a, b, c (counter-clockwise seen from its front).
 inline Vec3 area_normal(const Vec3& a, const Vec3& b, const Vec3& c) {
     return glm::cross(b - a, c - a);

@@ -18,8 +18,4 @@ struct Seen {
 Seen see(const Scene& scene, const VisibilityMap& map, const RayScene& rays, const Vec3& eye, const Vec3& direction,
          Show show);
 
-inline double luminance(const Vec3& c) {
-    return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
-}  // Rec. 709
-
 }  // namespace surimi

@@ -85,10 +85,6 @@ bool matches_glob(const std::string& pattern, const std::string& text) {
     return p == pattern.size();
 }
 
-double luminance(const Vec3& color) {
-    return glm::dot(color, Vec3(0.2126, 0.7152, 0.0722));
-}
-
 double flux(const MonitorCandidate& candidate) {
     return luminance(candidate.monitor.radiance) * area(candidate.monitor) * pi;
 }

@@ -21,9 +21,6 @@ struct MonitorCandidate {
 /// Lumen that leave one side: luminance * area * pi.
 double flux(const MonitorCandidate& candidate);
 
-/// Rec. 709 luminance of a linear colour.
-double luminance(const Vec3& color);
-
 /// Collects the candidates of one rule. A surface belongs to one candidate at most: the first that claims it.
 class CandidateFinder {
   public:

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Polygon lights on many points at once: the integrals of runtime/ltc in SIMD, for the processor at hand.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "runtime/base/math.h"
+
+namespace surimi {
+
+/// Numbers of many points, structure of arrays.
+struct Vec3Batch {
+    std::vector<double> x, y, z;
+    void push_back(const Vec3& v) { x.push_back(v.x), y.push_back(v.y), z.push_back(v.z); }
+    Vec3 operator[](size_t i) const { return {x[i], y[i], z[i]}; }
+    size_t size() const { return x.size(); }
+    void clear() { x.clear(), y.clear(), z.clear(); }
+};
+
+/// Points to shade. All arrays have one length.
+struct PointBatch {
+    Vec3Batch position;             ///< metres
+    Vec3Batch normal;               ///< unit
+    Vec3Batch view;                 ///< unit, towards the eye
+    std::vector<double> roughness;  ///< perceptual, in [0, 1]
+    size_t size() const { return roughness.size(); }
+};
+
+/// The lobes at the points, which do not depend on the lights: place_lobe of each point.
+struct LobeBatch {
+    Vec3Batch tangent;                    ///< unit; the bitangent is cross(normal, tangent)
+    std::vector<double> xx, xz, zx, zz;   ///< inverse matrix of the lobe: row letter first, middle entry 1 (M24)
+    std::vector<double> share_above;      ///< PlacedLobe::share_above
+    std::vector<double> albedo, fresnel;  ///< 0 where the input was not finite
+};
+
+/// Shares of one light, or sums over several: irradiance / pi, and share of the lobe; both in [0, 1] for one light.
+struct ShareBatch {
+    std::vector<double> diffuse, specular;
+    size_t not_finite = 0;  ///< points that got 0 because something about them was not finite
+};
+
+/// `mixed` computes in float and again in double where float cannot be trusted.
+enum class Precision { mixed, full };
+
+/// What of a light is wanted; the other half of the shares is left as it is.
+enum class Terms { diffuse, specular, both };
+
+/// place_lobe for every point. Resizes `lobes`.
+void place_lobes(const PointBatch& points, LobeBatch& lobes);
+
+/// Adds the shares of one planar convex polygon (three corners or more, counter-clockwise seen from the side that
+/// emits) to `shares`, whose arrays have the points' length. `is_wanted`, empty or one flag for each point, lets
+/// points be left out: their shares may or may not be added to, so the caller ignores them.
+void add_polygon(const PointBatch& points, const LobeBatch& lobes, std::span<const Vec3> corners, bool two_sided,
+                 Terms terms, Precision precision, std::span<const uint8_t> is_wanted, ShareBatch& shares);
+
+/// Names of the instruction sets that this processor and this build have, best first: "AVX3", "AVX2", "SSE4", ...
+std::vector<std::string> instruction_sets();
+
+/// Uses one of instruction_sets() from now on; the best again for an empty name. For measurements and tests: results
+/// differ in the last digits between instruction sets. Not thread-safe.
+void use_instruction_set(const std::string& name);
+
+}  // namespace surimi

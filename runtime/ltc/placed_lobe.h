@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// The lobe of GGX at a place: what a point with a normal, a view and a roughness reflects of lights of every shape.
+#pragma once
+
+#include <span>
+
+#include "runtime/ltc/cylinder.h"
+#include "runtime/ltc/ellipse.h"
+
+namespace surimi {
+
+/// The lobe where it stands. Lights are cut at the true horizon, brought into the space in which the lobe is a clamped
+/// cosine, cut at the horizon there, and integrated; the result is divided by what of the lobe is above the true
+/// horizon (M25), so a whole sky reflects `albedo` and a light below the surface nothing.
+struct PlacedLobe {
+    Mat3 to_cosine{1};       ///< from world directions to the cosine's space
+    Vec3 normal{0, 0, 1};    ///< unit; of the true horizon
+    double share_above = 1;  ///< of the lobe, above the true horizon, in (0, 1]
+    double albedo = 0;       ///< specular albedo = F0 * albedo + (1 - F0) * fresnel, see LtcLobe
+    double fresnel = 0;
+};
+
+/// The lobe for a unit normal, a unit direction to the eye and a perceptual roughness in [0, 1]. A view along the
+/// normal leaves the tangent open, and the lobe is round there; a view at or below the horizon, as interpolated
+/// normals give, counts as the least angle above it in the same plane. What is not finite gives a lobe of albedo 0 and
+/// raises FE_INVALID.
+PlacedLobe place_lobe(const Vec3& normal, const Vec3& view, double roughness);
+
+/// Share of the lobe that a light fills, in [0, 1], as seen from `point`; times the specular albedo and the light's
+/// radiance it is the radiance reflected to the eye. The rules of irradiance_of_... hold: which side emits, points
+/// inside, lights without area. Input that is not finite gives 0 and raises FE_INVALID.
+double specular_share_of_polygon(const PlacedLobe& lobe, std::span<const Vec3> corners, const Vec3& point,
+                                 bool two_sided = false);
+double specular_share_of_ellipse(const PlacedLobe& lobe, const Ellipse<double>& ellipse, const Vec3& point,
+                                 bool two_sided = false);
+double specular_share_of_ellipsoid(const PlacedLobe& lobe, const Ellipsoid<double>& ellipsoid, const Vec3& point);
+double specular_share_of_cylinder(const PlacedLobe& lobe, const Cylinder<double>& cylinder, const Vec3& point);
+/// Of a line, per metre of its width, in 1/m.
+double specular_share_of_line(const PlacedLobe& lobe, const Vec3& from, const Vec3& to, const Vec3& point);
+
+}  // namespace surimi
