@@ -43,7 +43,9 @@ struct ShareBatch {
     size_t not_finite = 0;  ///< points that got 0 because something about them was not finite
 };
 
-/// `mixed` computes in float and again in double where float cannot be trusted.
+/// `full` is exact to rounding in double. `mixed` does the geometry in double and the angles of the edges in float: its
+/// shares are wrong by at most 4.2e-7 wherever the light is, and by about 1e-7 over the light's angular size relative
+/// to themselves; lights of less than 0.01 rad are computed in double (M15).
 enum class Precision { mixed, full };
 
 /// What of a light is wanted; the other half of the shares is left as it is.
@@ -53,8 +55,11 @@ enum class Terms { diffuse, specular, both };
 void place_lobes(const PointBatch& points, LobeBatch& lobes);
 
 /// Adds the shares of one planar convex polygon (three corners or more, counter-clockwise seen from the side that
-/// emits) to `shares`, whose arrays have the points' length. `is_wanted`, empty or one flag for each point, lets
-/// points be left out: their shares may or may not be added to, so the caller ignores them.
+/// emits; with fewer nothing is added) to `shares`, whose arrays have the points' length. `is_wanted`, empty or one
+/// flag for each point, lets points be left out: their shares may or may not be added to, so the caller ignores them.
+/// `lobes` may be empty where only the diffuse share is wanted. A point's result depends on nothing but itself and the
+/// instruction set: not on the other points or on its place among them. A light or a point that is not finite adds
+/// nothing and is counted.
 void add_polygon(const PointBatch& points, const LobeBatch& lobes, std::span<const Vec3> corners, bool two_sided,
                  Terms terms, Precision precision, std::span<const uint8_t> is_wanted, ShareBatch& shares);
 

@@ -9,8 +9,8 @@ namespace surimi {
 
 namespace {
 
-/// Along, lift, skew, depth, albedo, fresnel_root; row by row.
-constexpr std::array<std::array<float, 6>, ltc_size* ltc_size> cells = {{
+/// Along, lift, skew, depth, albedo, fresnel_root, and two of padding; row by row.
+alignas(64) constexpr std::array<std::array<float, ltc_cell_floats>, ltc_size* ltc_size> cells = {{
 #include "runtime/ltc/table_data.inc"
 }};
 
@@ -29,7 +29,7 @@ Place place_of(double coordinate) {
 std::array<double, 6> numbers(int column, int row) {
     assert(column >= 0 && column < ltc_size && row >= 0 && row < ltc_size);
     std::array<double, 6> result{};
-    std::ranges::copy(cells[static_cast<size_t>(row * ltc_size + column)], result.begin());
+    std::copy_n(cells[static_cast<size_t>(row * ltc_size + column)].begin(), result.size(), result.begin());
     return result;
 }
 
@@ -51,6 +51,10 @@ double ltc_row_cosine(int row) {
 
 LtcCell ltc_cell(int column, int row) {
     return cell_of(numbers(column, row));
+}
+
+const float* ltc_cells() {
+    return cells[0].data();
 }
 
 LtcLobe ltc_lobe(double roughness, double cosine) {

@@ -27,6 +27,11 @@ double ltc_row_cosine(int row);
 /// A stored cell; both indices in [0, ltc_size).
 LtcCell ltc_cell(int column, int row);
 
+/// Floats from one cell to the next in `ltc_cells`: six numbers in LtcCell's order, and two of padding.
+inline constexpr size_t ltc_cell_floats = 8;
+/// All ltc_size x ltc_size stored cells, row by row, on a boundary of 64 bytes, for lookups in SIMD.
+const float* ltc_cells();
+
 /// Everything shading needs of the BRDF.
 struct LtcLobe {
     Mat3 inverse;    ///< to the cosine's space, from (tangent of the view's plane, bitangent, normal); middle entry 1
