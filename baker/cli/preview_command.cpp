@@ -3,31 +3,44 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "baker/cli/commands.h"
+#include "baker/cli/light_options.h"
+#include "baker/cli/numbers.h"
 #include "baker/cli/options.h"
+#include "baker/cli/preview_report.h"
 #include "baker/cli/progress.h"
 #include "baker/write/file.h"
 #include "runtime/base/error.h"
 #include "runtime/image/image_file.h"
 #include "runtime/map/map_file.h"
-#include "runtime/preview/render.h"
+#include "runtime/preview/display.h"
 #include "runtime/scene/gltf.h"
 
 namespace surimi {
 namespace {
 
 const std::map<std::string, Show> shows = {{"lit", Show::lit},
+                                           {"diffuse", Show::diffuse},
+                                           {"specular", Show::specular},
                                            {"visibility", Show::visibility},
                                            {"unshadowed", Show::unshadowed},
                                            {"shadowed", Show::shadowed},
                                            {"uv", Show::uv},
                                            {"texels", Show::texels},
-                                           {"normals", Show::normals}};
+                                           {"normals", Show::normals},
+                                           {"roughness", Show::roughness}};
+
+/// The names of a table of choices, as CLI11 checks them and as the help lists them.
+template <class T>
+std::vector<std::string> names_of(const std::map<std::string, T>& choices) {
+    std::vector<std::string> names;
+    for (const auto& [name, value] : choices) names.push_back(name);
+    return names;
+}
 
 struct PreviewOptions {
     Given given;
@@ -40,6 +53,15 @@ struct PreviewOptions {
     std::string show = "lit";
     std::vector<int> size{1280, 720};
     int samples = 3;
+    std::vector<std::string> lights;
+    std::vector<std::string> pictures;
+    std::string visibility = "baked";
+    std::string model = "exact";
+    int light_samples = 16;
+    int reference_samples = 64;
+    bool progressive = false;
+    bool compare = false;
+    bool explain = false;
 };
 
 /// The material that carries a map; none: an unbaked scene.
@@ -77,14 +99,6 @@ VisibilityMap load_map(const Scene& scene, const PreviewOptions& options) {
     return {};
 }
 
-double parse_number(const std::string& text) {
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-        throw Error(ErrorKind::usage, "--camera takes the name of a camera or three numbers, not \"" + text + "\"");
-    return value;
-}
-
 const Camera& camera_named(const Scene& scene, const std::string& name) {
     for (const Camera& camera : scene.cameras)
         if (camera.name == name) return camera;
@@ -94,7 +108,8 @@ const Camera& camera_named(const Scene& scene, const std::string& name) {
                 fmt::format("no camera is called \"{}\"; the scene has{}", name, names.empty() ? " none" : names));
 }
 
-View choose_view(const Scene& scene, const VisibilityMap& map, const RayScene& rays, const PreviewOptions& options) {
+View choose_view(const Lighting& lighting, const PreviewOptions& options) {
+    const Scene& scene = lighting.scene;
     const double aspect = static_cast<double>(options.size[0]) / options.size[1];
     const bool has_target = !options.look_at.empty();
     View view;
@@ -103,10 +118,10 @@ View choose_view(const Scene& scene, const VisibilityMap& map, const RayScene& r
     } else if (options.camera.empty() && !scene.cameras.empty()) {
         view = view_of(scene.cameras.front());
     } else {
-        view = frame_automatically(scene, map, rays, aspect);
+        view = frame_automatically(lighting, aspect);
     }
     if (options.camera.size() == 3)
-        for (int i = 0; i < 3; ++i) view.eye[i] = parse_number(options.camera[static_cast<size_t>(i)]);
+        for (int i = 0; i < 3; ++i) view.eye[i] = parse_number(options.camera[static_cast<size_t>(i)], "--camera");
     const double yfov = options.yfov_degrees > 0 ? options.yfov_degrees * pi / 180 : view.yfov;
     if (has_target) {
         view = look_at(view.eye, {options.look_at[0], options.look_at[1], options.look_at[2]}, yfov);
@@ -118,16 +133,91 @@ View choose_view(const Scene& scene, const VisibilityMap& map, const RayScene& r
     return view;
 }
 
-void write_picture(const std::filesystem::path& path, const Picture& picture, Show show, double exposure) {
+void write_picture(const std::filesystem::path& path, const Image<Vec3f>& pixels, Show show, double exposure) {
     if (path.extension() == ".exr") {
-        Channels channels{picture.pixels.width, picture.pixels.height, {"R", "G", "B"}, {}};
-        for (const Vec3f& p : picture.pixels.pixels) channels.values.insert(channels.values.end(), {p.x, p.y, p.z});
+        Channels channels{pixels.width, pixels.height, {"R", "G", "B"}, {}};
+        for (const Vec3f& p : pixels.pixels) channels.values.insert(channels.values.end(), {p.x, p.y, p.z});
         PendingFiles pending;
         write_exr(pending.add(path), channels, ExrDepth::half);
         pending.commit();
     } else {
-        write_file(path, encode_png(to_display(picture, show, exposure)));
+        write_file(path, encode_png(to_codes(displayed(pixels, show, exposure))));
     }
+}
+
+double exposure_of(const PreviewOptions& options, const Picture& picture) {
+    return options.exposure ? std::exp2(*options.exposure) : automatic_exposure(picture);
+}
+
+LightingSettings lighting_settings(const PreviewOptions& options) {
+    LightingSettings settings;
+    settings.samples = options.light_samples;
+    if (options.visibility == "none") settings.visibility = VisibilitySource::none;
+    if (options.visibility == "stochastic") settings.visibility = VisibilitySource::stochastic;
+    if (options.model == "kanikama") settings.model = ShadingModel::kanikama;
+    if (options.visibility == "reference" || options.model == "reference") settings.model = ShadingModel::reference;
+    return settings;
+}
+
+/// Writes the passes whose number is a power of two, so that a viewer that reloads the file shows the picture grow.
+auto writer_of_passes(const PreviewOptions& options, Show show) {
+    return [&options, show](const Picture& picture, int pass, int) {
+        if (options.progressive && (pass & (pass - 1)) == 0)
+            write_picture(options.out, picture.pixels, show, exposure_of(options, picture));
+    };
+}
+
+/// OUT.png -> OUT.reference.png
+std::filesystem::path beside(const std::filesystem::path& out, const std::string& what) {
+    return std::filesystem::path(out).replace_extension("." + what + out.extension().string());
+}
+
+/// Renders the reference, writes it and the heat map of the difference, and prints the numbers.
+void compare_with_reference(const Lighting& lighting, const View& view, RenderSettings settings,
+                            const PreviewOptions& options, const Picture& picture, double exposure) {
+    LightingSettings truth = lighting.settings;
+    truth.model = ShadingModel::reference;
+    truth.samples = std::max(1, options.reference_samples / 2);
+    const Lighting by_brute_force(lighting.scene, lighting.map, lighting.rays, lighting.lights, truth);
+    std::vector<Image<Vec3f>> halves;
+    for (const uint64_t seed : {1, 2}) {
+        settings.seed = seed;
+        const Progress progress = make_progress(options.given.progress, options.given.quiet);
+        halves.push_back(render(by_brute_force, view, settings, progress).pixels);
+    }
+    const Comparison comparison = compare_pictures(picture, halves, exposure);
+    const Image<Vec3f> reference = mean_of(halves);
+    write_picture(beside(options.out, "reference"), reference, settings.show, exposure);
+    Image<float> error(reference.width, reference.height);
+    for (size_t i = 0; i < error.pixels.size(); ++i) {
+        const Vec3f d = glm::abs(picture.pixels.pixels[i] - reference.pixels[i]) * static_cast<float>(exposure);
+        error.pixels[i] = std::max({d.x, d.y, d.z});
+    }
+    constexpr double brightest = 0.1;  // of the heat map: a seventh of what bright surfaces have
+    write_file(std::filesystem::path(options.out).replace_extension(".difference.png"),
+               encode_png(heat_map(error, 0, brightest)));
+    fmt::print("{}\n", options.given.json ? as_json(comparison) : as_text(comparison));
+}
+
+void report(const PreviewOptions& options, const View& view, const Picture& picture, double exposure) {
+    const double stops = std::log2(exposure);
+    if (options.given.json && !options.compare) {
+        const auto json = [](const Vec3& v) { return nlohmann::ordered_json{v.x, v.y, v.z}; };
+        const nlohmann::ordered_json report{{"file", options.out.string()},
+                                            {"eye", json(view.eye)},
+                                            {"forward", json(view.forward)},
+                                            {"exposure", stops}};
+        fmt::print("{}\n", report.dump(2));
+    }
+    if (options.given.json) return;
+    if (!options.given.quiet)
+        fmt::print(stderr, "camera ({:.3f}, {:.3f}, {:.3f}) towards ({:.3f}, {:.3f}, {:.3f}), exposure {:+.2f} EV\n",
+                   view.eye.x, view.eye.y, view.eye.z, view.forward.x, view.forward.y, view.forward.z, stops);
+    if (!options.given.quiet && options.show == "lit" && picture.lit_share < 0.1)
+        fmt::print(stderr,
+                   "note: only {:.2g} % of the picture shows lit surface; --camera auto looks for a better view\n",
+                   100 * picture.lit_share);
+    fmt::print("{}\n", options.out.string());
 }
 
 int preview(const PreviewOptions& options) {
@@ -135,40 +225,64 @@ int preview(const PreviewOptions& options) {
     set_thread_count(config.threads);
     if (options.out.extension() != ".png" && options.out.extension() != ".exr")
         throw Error(ErrorKind::usage, options.out.string() + ": the picture must be a .png or .exr");
+    if (options.compare && options.show != "lit") throw Error(ErrorKind::usage, "--compare is for --show lit");
     Scene scene = read_gltf(options.given.scene);
     find_monitors(scene, monitor_request(scene, config));
     if (!options.given.quiet) print_notes(scene);
     const VisibilityMap map = load_map(scene, options);
     const RayScene rays(scene);
-    const View view = choose_view(scene, map, rays, options);
+    const Lighting lighting(scene, map, rays, chosen_lights(scene, options.lights, options.pictures),
+                            lighting_settings(options));
+    const View view = choose_view(lighting, options);
     RenderSettings settings;
     settings.width = options.size[0];
     settings.height = options.size[1];
     settings.samples_per_side = options.samples;
     settings.show = shows.at(options.show);
-    const Picture picture =
-        render(scene, map, rays, view, settings, make_progress(options.given.progress, options.given.quiet));
-    const double exposure = options.exposure ? std::exp2(*options.exposure) : automatic_exposure(picture);
-    write_picture(options.out, picture, settings.show, exposure);
-    const double stops = std::log2(exposure);
-    if (options.given.json) {
-        const auto json = [](const Vec3& v) { return nlohmann::ordered_json{v.x, v.y, v.z}; };
-        const nlohmann::ordered_json report{{"file", options.out.string()},
-                                            {"eye", json(view.eye)},
-                                            {"forward", json(view.forward)},
-                                            {"exposure", stops}};
-        fmt::print("{}\n", report.dump(2));
-        return 0;
-    }
-    if (!options.given.quiet)
-        fmt::print(stderr, "camera ({:.3f}, {:.3f}, {:.3f}) towards ({:.3f}, {:.3f}, {:.3f}), exposure {:+.2f} EV\n",
-                   view.eye.x, view.eye.y, view.eye.z, view.forward.x, view.forward.y, view.forward.z, stops);
-    if (!options.given.quiet && settings.show == Show::lit && picture.lit_share < 0.1)
-        fmt::print(stderr,
-                   "note: only {:.2g} % of the picture shows lit surface; --camera auto looks for a better view\n",
-                   100 * picture.lit_share);
-    fmt::print("{}\n", options.out.string());
+    const Picture picture = render(lighting, view, settings, make_progress(options.given.progress, options.given.quiet),
+                                   writer_of_passes(options, settings.show));
+    const double exposure = exposure_of(options, picture);
+    write_picture(options.out, picture.pixels, settings.show, exposure);
+    if (options.explain) fmt::print("{}\n", explanation(lighting, picture));
+    if (options.compare) compare_with_reference(lighting, view, settings, options, picture, exposure);
+    report(options, view, picture, exposure);
     return 0;
+}
+
+void add_light_options(CLI::App& command, PreviewOptions& options) {
+    command.add_option("--light", options.lights, "Radiance of a monitor, linear, nits; repeatable; needs no new bake")
+        ->type_name("NODE=R,G,B")
+        ->expected(1)
+        ->take_all();
+    command.add_option("--picture", options.pictures, "Image that a monitor shows; repeatable")
+        ->type_name("NODE=FILE")
+        ->expected(1)
+        ->take_all();
+    command
+        .add_option("--visibility", options.visibility,
+                    "Shadows: none, baked (the map), stochastic (ratio of a few rays), reference (all of the light by "
+                    "brute force) [baked]")
+        ->type_name("SOURCE")
+        ->check(CLI::IsMember({"none", "baked", "stochastic", "reference"}));
+    command
+        .add_option("--model", options.model,
+                    "exact, kanikama (what its shader shows) or reference (brute force) [exact]")
+        ->type_name("MODEL")
+        ->check(CLI::IsMember({"exact", "kanikama", "reference"}));
+    command
+        .add_option("--light-samples", options.light_samples,
+                    "Rays of each sample of a pixel to each monitor, where light is sampled, 1 to 65536 [16]")
+        ->type_name("N")
+        ->check(CLI::Range(1, 65536));
+    command.add_flag("--progressive", options.progressive, "Write the picture after passes 1, 2, 4, ... as well");
+    command.add_flag("--explain", options.explain, "Say what the scene calls for, what was computed and what not");
+    command.add_flag("--compare", options.compare,
+                     "Also render by brute force: FILE.reference, FILE.difference, and the errors by roughness");
+    command
+        .add_option("--reference-samples", options.reference_samples,
+                    "Light samples of the reference of --compare, 2 to 65536 [64]")
+        ->type_name("N")
+        ->check(CLI::Range(2, 65536));
 }
 
 }  // namespace
@@ -199,9 +313,12 @@ Run add_preview_command(CLI::App& app) {
         ->type_name("N")
         ->check(CLI::Range(1, 64));
     command->add_option("--exposure", options->exposure, "Exposure in stops [automatic]")->type_name("EV");
-    command->add_option("--show", options->show, "lit, visibility, unshadowed, shadowed, uv, texels or normals [lit]")
+    command
+        ->add_option("--show", options->show,
+                     "lit, diffuse, specular, visibility, unshadowed, shadowed, uv, texels, normals or roughness [lit]")
         ->type_name("WHAT")
-        ->check(CLI::IsMember({"lit", "visibility", "unshadowed", "shadowed", "uv", "texels", "normals"}));
+        ->check(CLI::IsMember(names_of(shows)));
+    add_light_options(*command, *options);
     return [options] {
         if (options->camera.size() == 2) throw Error(ErrorKind::usage, "--camera takes a name or three numbers");
         return preview(*options);

@@ -109,21 +109,4 @@ std::vector<uint8_t> encode_png(const Image<glm::u8vec3>& image) {
     return bytes;
 }
 
-double srgb_from_linear(double linear) {
-    if (!(linear > 0)) return 0;
-    if (linear >= 1) return 1;
-    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
-}
-
-double linear_from_srgb(double encoded) {
-    if (!(encoded > 0)) return 0;
-    if (encoded >= 1) return 1;
-    return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
-}
-
-glm::u8vec3 srgb8(const Vec3& linear) {
-    const auto code = [](double x) { return static_cast<uint8_t>(std::lround(255 * srgb_from_linear(x))); };
-    return {code(linear.x), code(linear.y), code(linear.z)};
-}
-
 }  // namespace surimi

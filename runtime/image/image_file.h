@@ -37,10 +37,4 @@ void write_exr(const std::filesystem::path& path, const Channels& channels, ExrD
 /// Encodes 8-bit RGB as a PNG; the bytes depend on the pixels alone.
 std::vector<uint8_t> encode_png(const Image<glm::u8vec3>& image);
 
-/// sRGB transfer function (IEC 61966-2-1) and its inverse; both clamp to [0, 1]; NaN becomes 0.
-double srgb_from_linear(double linear);
-double linear_from_srgb(double encoded);
-/// Nearest 8-bit sRGB code of a linear colour.
-glm::u8vec3 srgb8(const Vec3& linear);
-
 }  // namespace surimi

@@ -16,15 +16,16 @@ bool is_parallelogram(const std::vector<Vec3>& c) {
 }  // namespace
 
 MonitorSampler::MonitorSampler(const Monitor& monitor) : two_sided_(monitor.two_sided) {
+    size_t panel = 0;
     const auto add = [&](const Vec3& origin, const Vec3& u, const Vec3& v, const Vec3& normal, bool whole) {
         const double area = glm::length(glm::cross(u, v)) * (whole ? 1 : 0.5);
         if (!(area > 0)) return;
         area_ += area;
-        pieces_.push_back({area_, whole, origin, u, v, normal});
+        pieces_.push_back({area_, whole, origin, u, v, normal, panel});
     };
-    for (const Polygon& panel : monitor.panels) {
-        const std::vector<Vec3>& c = panel.corners;
-        const Vec3 normal = front_normal(panel);
+    for (; panel < monitor.panels.size(); ++panel) {
+        const std::vector<Vec3>& c = monitor.panels[panel].corners;
+        const Vec3 normal = front_normal(monitor.panels[panel]);
         if (is_parallelogram(c)) {
             add(c[0], c[1] - c[0], c[3] - c[0], normal, true);
         } else {
@@ -45,7 +46,7 @@ LightPoint MonitorSampler::sample(double u, double v) const {
         u = std::sqrt(u);  // edge_u runs to the second corner, edge_v from there to the third
         v *= u;
     }
-    return {piece->origin + u * piece->edge_u + v * piece->edge_v, piece->normal};
+    return {piece->origin + u * piece->edge_u + v * piece->edge_v, piece->normal, piece->panel};
 }
 
 }  // namespace surimi

@@ -11,6 +11,7 @@ namespace surimi {
 struct LightPoint {
     Vec3 position{0};
     Vec3 normal{0, 0, 1};  ///< unit, front side
+    size_t panel = 0;      ///< index into Monitor::panels
 };
 
 /// A monitor cut into pieces over which a point is affine in (u, v): parallelograms where panels are such, else
@@ -30,6 +31,7 @@ class MonitorSampler {
         double cumulative = 0;  // area of this and all earlier pieces, m^2
         bool is_parallelogram = false;
         Vec3 origin{0}, edge_u{0}, edge_v{0}, normal{0, 0, 1};
+        size_t panel = 0;
     };
     std::vector<Piece> pieces_;
     double area_ = 0;

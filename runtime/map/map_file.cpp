@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/map/map_file.h"
+#include "runtime/base/color.h"
 
 #include <algorithm>
 #include <cmath>

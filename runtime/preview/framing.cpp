@@ -4,8 +4,7 @@
 #include <vector>
 
 #include "runtime/light/sample.h"
-#include "runtime/preview/render.h"
-#include "runtime/preview/shade.h"
+#include "runtime/preview/see.h"
 
 namespace surimi {
 namespace {
@@ -35,20 +34,28 @@ void add_candidates(const RayScene& rays, const Monitor& monitor, double size, s
 }
 
 /// How much a tiny picture shows: lit surface in many shades, a monitor, nothing nearer than `near_distance` metres.
-double score(const Scene& scene, const VisibilityMap& map, const RayScene& rays, const View& view, double aspect,
-             double near_distance) {
+double score(const Lighting& lighting, const View& view, double aspect, double near_distance) {
     constexpr int width = 48, height = 27;
     double lit = 0, glowing = 0, near = 0;
-    std::vector<double> levels;
+    std::vector<SeenPoint> points;
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
             const Vec3 direction = ray_direction(view, (x + 0.5) / width, (y + 0.5) / height, aspect);
-            const Seen seen = see(scene, map, rays, view.eye, direction, Show::lit);
-            const double level = luminance(seen.color);
+            const Seen seen = see(lighting, view.eye, direction, Show::lit, 0, 0, points);
             if (seen.distance < near_distance) near += 1;
-            if (seen.is_surface && level > 0) lit += 1, levels.push_back(std::log2(level));
-            if (!seen.is_surface && level > 0) glowing += 1;
+            if (!seen.is_surface && seen.color != Vec3(0)) glowing += 1;
         }
+    }
+    std::vector<ShadingPoint> opaque;  // what takes most of a ray
+    for (const SeenPoint& seen : points)
+        if (seen.weight > 0.5) opaque.push_back(seen.point);
+    std::vector<Parts> reflected(opaque.size());
+    std::vector<MonitorCounts> counts(lighting.scene.monitors.size());
+    shade(lighting, opaque, reflected, counts);
+    std::vector<double> levels;  // stops
+    for (const Parts& parts : reflected) {
+        const double level = luminance(parts.sum());
+        if (level > 0) lit += 1, levels.push_back(std::log2(level));
     }
     std::sort(levels.begin(), levels.end());
     const double pixels = width * height;
@@ -60,13 +67,14 @@ double score(const Scene& scene, const VisibilityMap& map, const RayScene& rays,
 
 }  // namespace
 
-View frame_automatically(const Scene& scene, const VisibilityMap& map, const RayScene& rays, double aspect) {
+View frame_automatically(const Lighting& lighting, double aspect) {
+    const Scene& scene = lighting.scene;
     std::vector<View> candidates;
     double size = 0;
     for (const Monitor& monitor : scene.monitors) {
         const double own_size = std::sqrt(area(monitor));
         size = std::max(size, own_size);
-        add_candidates(rays, monitor, own_size, candidates);
+        add_candidates(lighting.rays, monitor, own_size, candidates);
     }
     const Bounds box = bounds(scene);
     if (candidates.empty()) {  // no monitor: the whole scene from outside
@@ -77,7 +85,7 @@ View frame_automatically(const Scene& scene, const VisibilityMap& map, const Ray
     const double near_distance = std::min(0.1 * glm::length(box.high - box.low), size);
     std::vector<double> scores(candidates.size());
     parallel_for(candidates.size(), 1,
-                 [&](size_t i) { scores[i] = score(scene, map, rays, candidates[i], aspect, near_distance); });
+                 [&](size_t i) { scores[i] = score(lighting, candidates[i], aspect, near_distance); });
     return candidates[static_cast<size_t>(std::max_element(scores.begin(), scores.end()) - scores.begin())];
 }
 

@@ -146,13 +146,22 @@ Material read_material(const GltfDocument& document, const json& source) {
     material.unlit = extensions.is_object() && extensions.contains("KHR_materials_unlit");
     const double transmission = number_or(member(extensions, "KHR_materials_transmission"), "transmissionFactor", 0);
     material.transmission = std::clamp(transmission, 0.0, 1.0);
+    const json& specular = member(extensions, "KHR_materials_specular");
+    material.specular = std::clamp(number_or(specular, "specularFactor", 1), 0.0, 1.0);
+    material.specular_color = glm::clamp(vector_or(specular, "specularColorFactor", Vec3(1)), Vec3(0), Vec3(100));
+    const double ior = number_or(member(extensions, "KHR_materials_ior"), "ior", 1.5);
+    material.index_of_refraction = ior == 0 || ior >= 1 ? ior : 1.5;
     read_visibility_map(document, source, material);
     return material;
 }
 
 void note_ignored_extensions(const json& extensions, const std::string& place, Scene& scene) {
     static const std::set<std::string> read{
-        "KHR_materials_emissive_strength", "KHR_materials_unlit", "KHR_materials_transmission",
+        "KHR_materials_emissive_strength",
+        "KHR_materials_unlit",
+        "KHR_materials_transmission",
+        "KHR_materials_specular",
+        "KHR_materials_ior",
         "KHR_materials_clearcoat"};  // clearcoat: ignored where it is not the carrier
     static const std::set<std::string> matters{"KHR_materials_pbrSpecularGlossiness", "KHR_materials_volume",
                                                "KHR_materials_diffuse_transmission", "KHR_materials_displacement"};

@@ -34,7 +34,10 @@ struct Material {
     double roughness = 1;           ///< perceptual, in [0, 1]
     double metallic = 1;
     TextureUse metallic_roughness_texture;  ///< G roughness, B metallic, linear
-    TextureUse normal_texture;
+    double specular = 1;                    ///< KHR_materials_specular: 0, the dielectric part does not reflect
+    Vec3 specular_color{1};                 ///< of that extension, linear; tints F0 of the dielectric part
+    double index_of_refraction = 1.5;       ///< KHR_materials_ior; at least 1, or 0 for a perfect reflector
+    TextureUse normal_texture;              ///< tangent space, +y up
     double normal_scale = 1;
     Vec3 emissive{0};             ///< factor times KHR_materials_emissive_strength, nits
     TextureUse emissive_texture;  ///< sRGB-encoded

@@ -2,7 +2,10 @@
 #include "runtime/scene/texture.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "runtime/base/color.h"
 
 namespace surimi {
 namespace {
@@ -15,9 +18,20 @@ int wrapped(int64_t i, int size, Wrap wrap) {
     return static_cast<int>(m < size ? m : period - 1 - m);
 }
 
-}  // namespace
+/// Linear light of the 256 codes.
+const std::array<double, 256>& linear_of_codes() {
+    static const std::array<double, 256> table = [] {
+        std::array<double, 256> values{};
+        for (size_t code = 0; code < values.size(); ++code)
+            values[code] = linear_from_srgb(static_cast<double>(code) / 255);
+        return values;
+    }();
+    return table;
+}
 
-Vec4 look_up_texture(const Scene& scene, const TextureUse& use, const SurfacePoint& at) {
+/// Bilinear mean of what `value` makes of the four texels around the point.
+template <class Value>
+Vec4 filtered(const Scene& scene, const TextureUse& use, const SurfacePoint& at, const Value& value) {
     const Surface& surface = scene.surfaces[at.triangle.surface];
     if (use.image < 0 || scene.images[static_cast<size_t>(use.image)].empty()) return Vec4(1);
     if (static_cast<size_t>(use.uv_set) >= surface.uv_sets.size()) return Vec4(1);
@@ -33,11 +47,24 @@ Vec4 look_up_texture(const Scene& scene, const TextureUse& use, const SurfacePoi
     for (int dy = 0; dy < 2; ++dy) {
         for (int dx = 0; dx < 2; ++dx) {
             const double weight = (dx ? x - x0 : 1 - (x - x0)) * (dy ? y - y0 : 1 - (y - y0));
-            sum += weight * Vec4(image.at(wrapped(static_cast<int64_t>(x0) + dx, image.width, use.wrap_s),
-                                          wrapped(static_cast<int64_t>(y0) + dy, image.height, use.wrap_t)));
+            sum += weight * value(image.at(wrapped(static_cast<int64_t>(x0) + dx, image.width, use.wrap_s),
+                                           wrapped(static_cast<int64_t>(y0) + dy, image.height, use.wrap_t)));
         }
     }
-    return sum / 255.0;
+    return sum;
+}
+
+}  // namespace
+
+Vec4 look_up_texture(const Scene& scene, const TextureUse& use, const SurfacePoint& at) {
+    return filtered(scene, use, at, [](const glm::u8vec4& texel) { return Vec4(texel) / 255.0; });
+}
+
+Vec4 look_up_color_texture(const Scene& scene, const TextureUse& use, const SurfacePoint& at) {
+    const auto& linear = linear_of_codes();
+    return filtered(scene, use, at, [&](const glm::u8vec4& texel) {
+        return Vec4(linear[texel.r], linear[texel.g], linear[texel.b], texel.a / 255.0);
+    });
 }
 
 double alpha_at(const Scene& scene, const Material& material, const SurfacePoint& at) {

@@ -10,6 +10,9 @@ namespace surimi {
 /// has no such texture, its image could not be decoded, or the surface lacks the uv set.
 Vec4 look_up_texture(const Scene& scene, const TextureUse& use, const SurfacePoint& at);
 
+/// The same of a texture of sRGB-encoded colours, linearised before it is filtered; alpha as stored.
+Vec4 look_up_color_texture(const Scene& scene, const TextureUse& use, const SurfacePoint& at);
+
 /// The alpha that decides whether a point of a surface is there: factor times texture.
 double alpha_at(const Scene& scene, const Material& material, const SurfacePoint& at);
 

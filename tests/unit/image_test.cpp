@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "runtime/base/color.h"
 #include "runtime/base/error.h"
 #include "runtime/image/image_file.h"
 #include "runtime/map/map_file.h"
