@@ -2,6 +2,7 @@
 #include "runtime/compare/compare.h"
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "runtime/base/parallel.h"
@@ -14,6 +15,10 @@ namespace {
 struct RowSums {
     double squared = 0, relative = 0, absolute = 0;
 };
+
+double largest_channel(const Vec3& v) {
+    return std::max({v.x, v.y, v.z});
+}
 
 constexpr double left_out = -1;  // in place of a pixel's absolute difference
 
@@ -30,7 +35,7 @@ RowSums add_row(const Image<Vec3f>& image, const Image<Vec3f>& reference, int y,
         sums.squared += squared.x + squared.y + squared.z;
         sums.absolute += size.x + size.y + size.z;
         for (int c = 0; c < 3; ++c) sums.relative += squared[c] / (b[c] * b[c] + relative_epsilon);
-        absolute.at(x, y) = std::max({size.x, size.y, size.z});
+        absolute.at(x, y) = largest_channel(size);
     }
     return sums;
 }
@@ -73,6 +78,19 @@ ImageDifference difference(const Image<Vec3f>& image, const Image<Vec3f>& refere
     result.rmse = std::sqrt(sums.squared / values);
     result.relative_mse = sums.relative / values;
     result.mean_absolute = sums.absolute / values;
+    return result;
+}
+
+Image<float> absolute_difference(const Image<Vec3f>& image, const Image<Vec3f>& reference) {
+    require_same_size(image, reference);
+    Image<float> result(image.width, image.height, std::numeric_limits<float>::quiet_NaN());
+    for (size_t i = 0; i < result.pixels.size(); ++i) {
+        const Vec3 a(image.pixels[i]), b(reference.pixels[i]);
+        // Two floats of opposite sign may differ by more than a float holds.
+        constexpr double most = std::numeric_limits<float>::max();
+        if (is_finite(a) && is_finite(b))
+            result.pixels[i] = static_cast<float>(std::min(largest_channel(glm::abs(a - b)), most));
+    }
     return result;
 }
 

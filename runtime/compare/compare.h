@@ -30,6 +30,10 @@ struct ImageDifference {
 /// Compares two linear images (M28). Throws Error(usage) when their sizes differ.
 ImageDifference difference(const Image<Vec3f>& image, const Image<Vec3f>& reference);
 
+/// Absolute difference of each pixel, in its largest channel; NaN where one of the two is not finite. Throws
+/// Error(usage) when their sizes differ.
+Image<float> absolute_difference(const Image<Vec3f>& image, const Image<Vec3f>& reference);
+
 /// FLIP of Andersson et al. 2020 for each pixel, in [0, 1]: the difference that a person sees who flips between the two
 /// (M28). Both are display-referred linear sRGB; they are clamped to [0, 1] and NaN is black, as a screen would show
 /// them. Throws Error(usage) when the sizes differ or `pixels_per_degree` is not in [1, 10000].

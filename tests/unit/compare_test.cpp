@@ -95,6 +95,10 @@ TEST(Difference, LeavesOutWhatIsNotFiniteAndCountsIt) {
     EXPECT_EQ(some.largest_x, 2);
     EXPECT_EQ(some.p99, 0.25);
 
+    const Image<float> absolute = absolute_difference(image, reference);
+    EXPECT_EQ(absolute.at(2, 0), 0.25f);
+    EXPECT_TRUE(std::isnan(absolute.at(0, 0)) && std::isnan(absolute.at(1, 0)) && std::isnan(absolute.at(3, 2)));
+
     const ImageDifference none = difference(Image<Vec3f>(2, 2, Vec3f(nan)), Image<Vec3f>(2, 2));
     EXPECT_EQ(none.not_finite, 4u);
     EXPECT_EQ(none.rmse, 0);
@@ -108,6 +112,7 @@ TEST(Difference, OfTheLargestFloatsIsFinite) {
     EXPECT_EQ(extremes.largest, 2.0 * most);
     EXPECT_NEAR(extremes.rmse / most, 2, 1e-12);
     EXPECT_TRUE(std::isfinite(extremes.relative_mse));
+    EXPECT_EQ(absolute_difference(Image<Vec3f>(1, 1, Vec3f(most)), Image<Vec3f>(1, 1, Vec3f(-most))).at(0, 0), most);
 }
 
 TEST(Compare, RefusesImagesOfDifferentSizes) {
