@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The visibility map: for every lightmap texel, which share of each monitor's light arrives.
+// This file and its .cpp need GLM and runtime/base/*.h alone, so an engine can lift them. map_file, which knows the
+// file formats, needs runtime/image too.
 #pragma once
 
 #include <array>

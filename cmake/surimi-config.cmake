@@ -1,0 +1,15 @@
+# find_package(surimi) gives surimi::runtime: what a program needs that shows a bake.
+include(CMakeFindDependencyMacro)
+find_dependency(TBB)
+find_dependency(embree 3.13)
+find_dependency(fmt)
+find_dependency(meshoptimizer)
+find_dependency(draco)
+
+include(${CMAKE_CURRENT_LIST_DIR}/libraries.cmake)
+if(surimi_missing)
+  set(surimi_FOUND FALSE)
+  set(surimi_NOT_FOUND_MESSAGE "libraries that Surimi needs are not there: ${surimi_missing}")
+  return()
+endif()
+include(${CMAKE_CURRENT_LIST_DIR}/surimi-targets.cmake)
