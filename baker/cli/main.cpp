@@ -15,7 +15,7 @@ using surimi::ErrorKind;
 
 constexpr const char* footer =
     "Exit codes: 0 ok, 1 internal error, 2 usage or configuration, 3 the scene cannot be read or is invalid,\n"
-    "4 nothing to bake or ambiguous monitors, 6 cannot write, 130 interrupted.\n"
+    "4 nothing to bake or ambiguous monitors, 5 a comparison above its limit, 6 cannot write, 130 interrupted.\n"
     "Start here: surimi inspect room.glb, then surimi bake room.glb -o out, then surimi preview out/room.baked.glb -o "
     "room.png";
 
@@ -49,7 +49,7 @@ int run(int argc, char** argv) {
     app.require_subcommand(1);
     std::vector<std::pair<const CLI::App*, surimi::Run>> commands;
     for (const auto add : {surimi::add_inspect_command, surimi::add_unwrap_command, surimi::add_bake_command,
-                           surimi::add_preview_command}) {
+                           surimi::add_preview_command, surimi::add_compare_command}) {
         const surimi::Run command = add(app);
         commands.emplace_back(app.get_subcommands({}).back(), command);
     }

@@ -121,6 +121,22 @@ expect 0 "no visibility map" "$surimi" preview "$theater" -o "$work/plain.png" -
 expect 0 "charts" "$surimi" unwrap "$theater" -o "$work/uv.glb" --size 256
 expect 2 "is the input" "$surimi" unwrap "$work/uv.glb" -o "$work/uv.glb" --size 256
 
+# Comparing
+expect 0 "FLIP           0 " "$surimi" compare "$work/out/home-theater.visibility.exr" "$work/again/home-theater.visibility.exr"
+expect 5 "rmse is" "$surimi" compare "$work/lit.png" "$work/unshadowed.png" --fail-above 1e-6 --metric rmse
+expect 5 "flip is" "$surimi" compare "$work/lit.png" "$work/unshadowed.png" --fail-above 1e-6 --metric flip
+expect 0 "FLIP, black 0 to yellow 1" "$surimi" compare "$work/lit.png" "$work/unshadowed.png" --metric flip --fail-above 1 -o "$work/heat.png"
+check test -s "$work/heat.png"
+expect 0 "absolute difference" "$surimi" compare "$work/lit.png" "$work/unshadowed.png" -o "$work/heat.png"
+# The PNG is the map in sRGB codes, which are at most 1 / 255 / 2 * 2.3 (the curve's slope at white) = 0.0045 off.
+expect 0 "not_finite" "$surimi" compare "$work/out/home-theater.visibility.png" "$work/out/home-theater.visibility.exr" --json --metric largest --fail-above 0.0048
+expect 2 "64 x 36 and 128 x 128" "$surimi" compare "$work/lit.png" "$work/out/home-theater.visibility.exr"
+expect 2 "choose one" "$surimi" compare "$work/out/home-theater.lightmaps.exr" "$work/out/home-theater.lightmaps.exr"
+expect 2 "Nothing" "$surimi" compare "$work/lit.png" "$work/lit.png" --channel Nothing
+expect 0 "RMSE           0" "$surimi" compare "$work/lit.png" "$work/lit.png" --channel G
+expect 2 "must be a .png" "$surimi" compare "$work/lit.png" "$work/lit.png" -o "$work/heat.exr"
+expect 3 "missing.png" "$surimi" compare "$work/missing.png" "$work/lit.png"
+
 # 130: Ctrl-C leaves nothing behind
 "$surimi" bake "$theater" --size 2048 --samples 4096 -o "$work/interrupted" --quiet 2>"$work/stderr" &
 sleep 3
