@@ -2,6 +2,7 @@
 // GLM under the names that Surimi uses. Geometry is double; what is stored in files and images is float.
 #pragma once
 
+#include <cfenv>
 #include <cmath>
 
 #include <glm/glm.hpp>
@@ -28,8 +29,19 @@ inline Vec3 normalize_or(const Vec3& v, const Vec3& fallback) {
     return scaled / glm::length(scaled);
 }
 
-inline bool is_finite(const Vec3& v) {
+template <class T>
+bool is_finite(const glm::vec<3, T>& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+/// `result`, with the floating-point exception flag FE_INVALID raised: what a function of the runtime returns when its
+/// input is not finite. So results are always defined, and who clears the flag before a picture and tests it after
+/// (std::feclearexcept, std::fetestexcept; one flag a thread) knows whether something was not. Finite input leaves the
+/// flag alone.
+template <class R>
+R flagged(R result) {
+    std::feraiseexcept(FE_INVALID);
+    return result;
 }
 
 /// Luminance of a linear colour, Rec. 709.

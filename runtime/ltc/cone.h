@@ -32,17 +32,17 @@ glm::mat<3, 3, T> frame_around(const glm::vec<3, T>& z) {
 
 /// The cone around the ellipsoid with this centre, relative to the point that looks, and these three half axes, of any
 /// lengths and angles (conjugate half-diameters). With a third axis of 0 it is the planar ellipse of the first two
-/// (M10). Widths above 1 / epsilon, where the cone is a half space but for rounding, are cut to it.
+/// (M10). Widths above 1 / epsilon, where the cone is a half space but for rounding, are cut to it. Input that is not
+/// finite gives the cone of nothing and raises FE_INVALID.
 template <class T>
 EllipticCone<T> cone_around(glm::vec<3, T> centre, std::array<glm::vec<3, T>, 3> half_axes) {
     using V = glm::vec<3, T>;
     EllipticCone<T> cone;
     T scale = 0;
-    for (const V& v : {centre, half_axes[0], half_axes[1], half_axes[2]})
-        for (int i = 0; i < 3; ++i) {
-            if (!std::isfinite(v[i])) return cone;
-            scale = std::max(scale, std::abs(v[i]));
-        }
+    for (const V& v : {centre, half_axes[0], half_axes[1], half_axes[2]}) {
+        if (!is_finite(v)) return flagged(cone);
+        scale = std::max({scale, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    }
     if (!(scale > 0)) return cone;
     centre /= scale;
     for (V& v : half_axes) v /= scale;
@@ -69,9 +69,10 @@ EllipticCone<T> cone_around(glm::vec<3, T> centre, std::array<glm::vec<3, T>, 3>
     const SymmetricEigen<T> eigen = eigen_of_symmetric(m);
     const T m1 = eigen.values[0];
     T m2 = eigen.values[1], m3 = -eigen.values[2];
-    if (!(m1 > 0)) return cone;
+    const T larger = std::max(m2, m3);
+    if (!(m1 > 0) || !(larger > 0)) return cone;
     // The smaller of m2 and m3 is lost in the rounding of the others; the determinant knows it.
-    (m2 < m3 ? m2 : m3) = (root / m1) * (root / std::max(m2, m3));
+    (m2 < m3 ? m2 : m3) = (root / m1) * (root / larger);
     if (!(m3 > 0)) return cone;
     constexpr T widest = 1 / std::numeric_limits<T>::epsilon();
     cone.a = std::min(std::sqrt(m1 / m3), widest);

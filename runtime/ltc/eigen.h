@@ -21,14 +21,15 @@ struct SymmetricEigen {
 /// Eigen-decomposition of the symmetric matrix whose upper triangle is that of `matrix`, by cyclic Jacobi rotations
 /// (M9). The error is a few epsilon of the largest entry; of a matrix whose rows are graded (entries that fall away
 /// along the diagonal, each with small relative error) small eigenvalues keep their own digits too. Scaled inside, so
-/// any magnitude will do. The zero matrix, and one that is not finite, has values 0 and the identity's axes.
+/// any magnitude will do. The zero matrix has values 0 and the identity's axes; so has one that is not finite, and
+/// FE_INVALID is raised.
 template <class T>
 SymmetricEigen<T> eigen_of_symmetric(glm::mat<3, 3, T> matrix) {
     SymmetricEigen<T> result;
     T scale = 0;
     for (int i = 0; i < 3; ++i)
         for (int j = i; j < 3; ++j) {
-            if (!std::isfinite(matrix[j][i])) return result;
+            if (!std::isfinite(matrix[j][i])) return flagged(result);
             scale = std::max(scale, std::abs(matrix[j][i]));
         }
     if (!(scale > 0)) return result;

@@ -31,10 +31,11 @@ T irradiance_of_narrow_cone(T ab, T tilt, T height) {
 }
 
 /// Irradiance, at unit radiance, from all directions of the cone that are above the horizon of the unit vector
-/// `normal`, in [0, pi] (M11); pi where there is no cone because the point is inside. 0 when anything is not finite.
+/// `normal`, in [0, pi] (M11); pi where there is no cone because the point is inside. A normal that is not finite gives
+/// 0 and raises FE_INVALID.
 template <class T>
 T irradiance_of_cone(const EllipticCone<T>& cone, const glm::vec<3, T>& normal) {
-    if (!std::isfinite(glm::dot(normal, normal))) return 0;
+    if (!is_finite(normal)) return flagged(T(0));
     if (cone.is_inside) return T(pi);
     const T a = cone.a, b = cone.b;
     const T x = glm::dot(normal, cone.axes[0]), y = glm::dot(normal, cone.axes[1]), z = glm::dot(normal, cone.axes[2]);
@@ -67,10 +68,11 @@ T irradiance_of_cone(const EllipticCone<T>& cone, const glm::vec<3, T>& normal) 
 
 /// Irradiance, at unit radiance, that an ellipse sends to a point with a given unit normal, in [0, pi] (M10, M11).
 /// Exact: no sphere in its place and no table. A point behind it gets 0, or the same as in front when `two_sided`; a
-/// point in its plane gets 0, as from an ellipse without area. Input that is not finite gives 0.
+/// point in its plane gets 0, as from an ellipse without area. Input that is not finite gives 0 and raises FE_INVALID.
 template <class T>
 T irradiance_of_ellipse(const Ellipse<T>& ellipse, const glm::vec<3, T>& point, const glm::vec<3, T>& normal,
                         bool two_sided = false) {
+    if (!is_finite(normal)) return flagged(T(0));
     const EllipticCone<T> cone =
         cone_around<T>(ellipse.centre - point, {ellipse.half_u, ellipse.half_v, glm::vec<3, T>(0)});
     const bool is_seen = two_sided ? cone.side != 0 : cone.side < 0;
@@ -79,7 +81,7 @@ T irradiance_of_ellipse(const Ellipse<T>& ellipse, const glm::vec<3, T>& point, 
 
 /// Irradiance, at unit radiance, that an ellipsoid sends to a point with a given unit normal, in [0, pi] (M10, M11).
 /// pi for a point in it or on it. With one half axis of 0 it is a two-sided ellipse, with two 0. Input that is not
-/// finite gives 0.
+/// finite gives 0 and raises FE_INVALID.
 template <class T>
 T irradiance_of_ellipsoid(const Ellipsoid<T>& ellipsoid, const glm::vec<3, T>& point, const glm::vec<3, T>& normal) {
     return irradiance_of_cone(cone_around(ellipsoid.centre - point, ellipsoid.half_axes), normal);

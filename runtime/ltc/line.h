@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "runtime/base/math.h"
 
@@ -14,15 +15,16 @@ namespace surimi {
 ///     integral along the line of max(0, n.p) d / |p|^4 dl,     d: distance of the point from the line.
 /// Times 2 R it is the irradiance of a cylinder without caps of radius R << d, to first order in R / d. The part below
 /// the horizon is cut off (M4). A point on the line, or on its continuation, gets 0; close to it the value grows as
-/// 1 / d, without bound. Input that is not finite gives 0.
+/// 1 / d, without bound. Input that is not finite gives 0 and raises FE_INVALID.
 template <class T>
 T irradiance_of_line(const glm::vec<3, T>& from, const glm::vec<3, T>& to, const glm::vec<3, T>& point,
                      const glm::vec<3, T>& normal) {
     using V = glm::vec<3, T>;
     V a = from - point, b = to - point, along = to - from;
     const auto largest = [](const V& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); };
+    if (!is_finite(a) || !is_finite(b) || !is_finite(along) || !is_finite(normal)) return flagged(T(0));
     const T scale = std::max(largest(a), largest(b)), along_scale = largest(along);
-    if (!(scale > 0) || !(along_scale > 0) || !std::isfinite(scale)) return 0;
+    if (!(scale > 0) || !(along_scale > 0)) return 0;
     a /= scale;
     b /= scale;
     along /= along_scale;
@@ -37,7 +39,8 @@ T irradiance_of_line(const glm::vec<3, T>& from, const glm::vec<3, T>& to, const
     const V nearer = glm::dot(a, a) < glm::dot(b, b) ? a : b;
     const V moment = glm::cross(along, nearer);
     const T d = glm::length(moment);
-    if (!(d > 0)) return 0;
+    // Far below rounding; the fourth power of d, below, must not vanish.
+    if (!(d > std::sqrt(std::sqrt(std::numeric_limits<T>::min())))) return 0;
     const T n_foot = glm::dot(normal, glm::cross(moment, along)) / d;  // of the unit vector to the line's nearest point
     const T n_along = glm::dot(normal, along);
     const T l1 = glm::dot(a, along), l2 = glm::dot(b, along), length = glm::dot(b - a, along);

@@ -2,66 +2,163 @@
 // Cosine integral over a polygon: Lambert's formula with exact horizon clipping.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 
 #include "runtime/base/math.h"
 
 namespace surimi {
 
-/// Irradiance, at unit radiance, that a planar polygon sends to a point with a given normal, in [0, pi] (M1):
+/// n . unit(a x b) * angle(a, b): the share of the edge from a to b in the contour integral along `normal`, twice its
+/// irradiance (M1). 0 for an edge without length, aimed at the point or beginning there.
+template <class T>
+T edge_integral(const glm::vec<3, T>& a, const glm::vec<3, T>& b, const glm::vec<3, T>& normal) {
+    // a x b by the edge and its nearer end: of two nearly equal vectors only noise would be left.
+    const glm::vec<3, T> c = glm::cross(glm::dot(a, a) < glm::dot(b, b) ? a : b, b - a);
+    const T sine = glm::length(c);
+    return sine > 0 ? std::atan2(sine, glm::dot(a, b)) * (glm::dot(c, normal) / sine) : T(0);
+}
+
+/// Where the line through a and b, whose heights have different signs, meets the horizon (M4).
+template <class T>
+glm::vec<3, T> horizon_crossing(const glm::vec<3, T>& a, T height_a, const glm::vec<3, T>& b, T height_b) {
+    return a * (height_b / (height_b - height_a)) - b * (height_a / (height_b - height_a));
+}
+
+/// Where a contour goes below a horizon and comes back.
+template <class T>
+struct HorizonGap {
+    glm::vec<3, T> left{0};           ///< where it went below
+    glm::vec<3, T> first_entered{0};  ///< where it came up for the first time, if it began below
+    bool is_below = false, began_below = false;
+};
+
+/// Cuts an edge of a closed contour, whose edges come in order, at the horizon (M4). Calls add(a, b) for the part of
+/// the edge above it, and close(left, entered) where the contour comes back to the horizon.
+template <class T, class Add, class Close>
+void cut_edge(HorizonGap<T>& gap, const glm::vec<3, T>& a, T height_a, const glm::vec<3, T>& b, T height_b,
+              const Add& add, const Close& close) {
+    if (height_a >= 0 && height_b >= 0) {
+        add(a, b);
+    } else if (height_a >= 0) {
+        gap.left = horizon_crossing(a, height_a, b, height_b);
+        gap.is_below = true;
+        add(a, gap.left);
+    } else if (height_b >= 0) {
+        const glm::vec<3, T> entered = horizon_crossing(a, height_a, b, height_b);
+        if (gap.is_below) {
+            close(gap.left, entered);
+            gap.is_below = false;
+        } else {
+            gap.first_entered = entered;
+            gap.began_below = true;
+        }
+        add(entered, b);
+    }
+}
+
+/// Closes a contour that began and ended below the horizon.
+template <class T, class Close>
+void close_gap(const HorizonGap<T>& gap, const Close& close) {
+    if (gap.is_below && gap.began_below) close(gap.left, gap.first_entered);
+}
+
+/// The contour integral of a polygon with what is below the horizon cut off.
+template <class T>
+struct PolygonAbove {
+    glm::vec<3, T> normal{0};
+    T sum = 0;
+    T along_horizon = 0;  ///< of the edges that close the contour
+    HorizonGap<T> gap;
+};
+
+/// Adds what a contour that is below the horizon between two places has along the horizon, where the normal of every
+/// edge is +-n.
+template <class T>
+void close_along_horizon(PolygonAbove<T>& polygon, const glm::vec<3, T>& left, const glm::vec<3, T>& entered) {
+    const glm::vec<3, T> c = glm::cross(left, entered);
+    const T sine = glm::length(c), cosine = glm::dot(left, entered);
+    // Both are 0 for a corner at the point; atan2(0, -0) would be pi.
+    if (sine > 0 || cosine < 0)
+        polygon.along_horizon += std::copysign(std::atan2(sine, cosine), glm::dot(c, polygon.normal));
+}
+
+/// Adds the next edge, from a to b, whose heights above the horizon are known.
+template <class T>
+void add_edge(PolygonAbove<T>& polygon, const glm::vec<3, T>& a, T height_a, const glm::vec<3, T>& b, T height_b) {
+    using V = glm::vec<3, T>;
+    cut_edge(
+        polygon.gap, a, height_a, b, height_b,
+        [&](const V& p, const V& q) { polygon.sum += edge_integral(p, q, polygon.normal); },
+        [&](const V& left, const V& entered) { close_along_horizon(polygon, left, entered); });
+}
+
+/// Irradiance in [0, pi] of a polygon whose edges have all been added (M4). It emits to the side from which its corners
+/// run counter-clockwise, or to both.
+template <class T>
+T irradiance_above(PolygonAbove<T>& polygon, bool two_sided) {
+    using V = glm::vec<3, T>;
+    close_gap(polygon.gap, [&](const V& left, const V& entered) { close_along_horizon(polygon, left, entered); });
+    // Seen from the front, counter-clockwise corners circle the direction to the polygon clockwise.
+    const T irradiance = -(polygon.sum + polygon.along_horizon) / 2;
+    const T value = two_sided ? std::abs(irradiance) : irradiance;
+    return value > 0 ? std::min(value, T(pi)) : T(0);
+}
+
+/// Largest component of the corners relative to `point`; infinity when one is not finite, 0 when there are none.
+template <class T>
+T largest_offset(std::span<const glm::vec<3, T>> corners, const glm::vec<3, T>& point) {
+    T largest = 0;
+    for (const glm::vec<3, T>& corner : corners) {
+        const glm::vec<3, T> offset = corner - point;
+        if (!is_finite(offset)) return std::numeric_limits<T>::infinity();
+        largest = std::max({largest, std::abs(offset.x), std::abs(offset.y), std::abs(offset.z)});
+    }
+    return largest;
+}
+
+/// A power of 2 that brings numbers up to `largest` > 0 to a size whose fourth powers neither over- nor underflow; 1
+/// where they do not anyway, so ordinary scenes are not touched.
+template <class T>
+T unit_scale(T largest) {
+    using Limits = std::numeric_limits<T>;
+    const int exponent = std::ilogb(largest);
+    if (std::abs(exponent) < Limits::max_exponent / 5) return 1;
+    return std::ldexp(T(1), std::clamp(-exponent, Limits::min_exponent, Limits::max_exponent - 1));
+}
+
+/// Irradiance, at unit radiance, that a planar polygon sends to a point with a given unit normal, in [0, pi] (M1):
 ///     E = 1/2 sum_i angle_i (n . unit(a_i x a_i+1)),   angle_i = atan2(|a_i x a_i+1|, a_i . a_i+1),
 /// Lambert 1760; the angle by atan2 because acos of the cosine is 2 % off for an edge of 2e-3 rad. The part below the
 /// horizon is cut off edge by edge: an edge that crosses it contributes the part above, and one more edge closes the
-/// contour along the horizon, from where it left to where it came back (M4). No vertex list is made.
+/// contour along the horizon, from where it left to where it came back (M4). No vertex list is made, and the polygon
+/// need not be convex.
 /// Corners run counter-clockwise seen from the side that emits; a point on the other side gets 0, or the same
-/// irradiance as in front of it when `two_sided`. Points in the polygon's plane get 0 outside it.
-/// Never NaN for finite input; the result does not change when everything is scaled or shifted together.
+/// irradiance as in front of it when `two_sided`. Points in the polygon's plane get 0 outside it; fewer than three
+/// corners give 0. Never NaN; the result does not change when everything is scaled or shifted together. Input that is
+/// not finite gives 0 and raises FE_INVALID.
 template <class T>
 T irradiance_of_polygon(std::span<const glm::vec<3, T>> corners, const glm::vec<3, T>& point,
                         const glm::vec<3, T>& normal, bool two_sided = false) {
     using V = glm::vec<3, T>;
-    // n . unit(a x b) * angle(a, b): one edge's share of the vector irradiance along the normal.
-    const auto edge = [&](const V& a, const V& b) {
-        // a x b by the edge and its nearer end: of two nearly equal vectors only noise would be left.
-        const V c = glm::cross(glm::dot(a, a) < glm::dot(b, b) ? a : b, b - a);
-        const T sine = glm::length(c);
-        return sine > 0 ? std::atan2(sine, glm::dot(a, b)) * (glm::dot(c, normal) / sine) : T(0);
-    };
-    T sum = 0;
-    V left{0}, entered{0};  // where the contour goes below the horizon, and where it comes back
-    bool is_clipped = false;
-    V a = corners[corners.size() - 1] - point;
+    const T largest = largest_offset(corners, point);
+    if (!std::isfinite(largest) || !is_finite(point) || !is_finite(normal)) return flagged(T(0));
+    if (corners.size() < 3 || !(largest > 0)) return 0;
+    const T scale = unit_scale(largest);
+    PolygonAbove<T> polygon;
+    polygon.normal = normal;
+    V a = (corners[corners.size() - 1] - point) * scale;
     T height_a = glm::dot(a, normal);
     for (const V& corner : corners) {
-        const V b = corner - point;
+        const V b = (corner - point) * scale;
         const T height_b = glm::dot(b, normal);
-        if (height_a >= 0 && height_b >= 0) {
-            sum += edge(a, b);
-        } else if (height_a >= 0 || height_b >= 0) {
-            const V crossing = a * (height_b / (height_b - height_a)) - b * (height_a / (height_b - height_a));
-            is_clipped = true;
-            if (height_a >= 0) {
-                sum += edge(a, crossing);
-                left = crossing;
-            } else {
-                sum += edge(crossing, b);
-                entered = crossing;
-            }
-        }
+        add_edge(polygon, a, height_a, b, height_b);
         a = b;
         height_a = height_b;
     }
-    if (is_clipped) {  // along the horizon, where the normal of every edge is +-n
-        const V c = glm::cross(left, entered);
-        const T sine = glm::length(c), cosine = glm::dot(left, entered);
-        // Both are 0 for a corner at the point; atan2(0, -0) would be pi.
-        if (sine > 0 || cosine < 0) sum += std::copysign(std::atan2(sine, cosine), glm::dot(c, normal));
-    }
-    // Seen from the front, counter-clockwise corners circle the direction to the polygon clockwise.
-    const T irradiance = -sum / 2;
-    const T value = two_sided ? std::abs(irradiance) : irradiance;
-    return value > 0 ? std::min(value, T(pi)) : T(0);
+    return irradiance_above(polygon, two_sided);
 }
 
 }  // namespace surimi

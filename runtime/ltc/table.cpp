@@ -58,6 +58,7 @@ const float* ltc_cells() {
 }
 
 LtcLobe ltc_lobe(double roughness, double cosine) {
+    const bool is_valid = std::isfinite(roughness) && std::isfinite(cosine);
     const double u = roughness > 0 ? std::min(roughness, 1.0) : 0;  // these comparisons are false for NaN
     const double c = cosine < 1 ? std::max(cosine, ltc_least_cosine) : 1;
     const Place across = place_of(u), down = place_of(std::sqrt(1 - c));
@@ -70,7 +71,9 @@ LtcLobe ltc_lobe(double roughness, double cosine) {
         }
     const LtcCell cell = cell_of(sum);
     const Mat3 inverse = inverse_matrix(cell.shape, std::max(ltc_least_alpha, u * u), c);
-    return {inverse, cell.albedo, cell.albedo * std::pow(cell.fresnel_root, 5), lobe_below_horizon(inverse)};
+    const double fresnel = cell.albedo * std::pow(cell.fresnel_root, 5);
+    const LtcLobe lobe{inverse, cell.albedo, fresnel, lobe_below_horizon(inverse)};
+    return is_valid ? lobe : flagged(lobe);
 }
 
 }  // namespace surimi

@@ -41,7 +41,7 @@ struct LtcLobe {
 };
 
 /// The lobe at a perceptual roughness and N.V, both clamped to [0, 1]. Not a number counts as roughness 0 and N.V 1,
-/// the first cell; the result is always finite and its matrix regular.
+/// the first cell; the result is always finite and its matrix regular. Input that is not finite raises FE_INVALID.
 LtcLobe ltc_lobe(double roughness, double cosine);
 
 }  // namespace surimi
