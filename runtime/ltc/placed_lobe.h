@@ -20,22 +20,28 @@ struct PlacedLobe {
     double fresnel = 0;
 };
 
+/// The orthonormal, right-handed frame (columns tangent, bitangent, normal) whose tangent is on the view's side of the
+/// normal, in their plane; any tangent where the two are parallel (M16). Neither needs unit length; a normal without
+/// any counts as (0, 0, 1). Input that is not finite gives the identity and raises FE_INVALID.
+Mat3 frame_of_view(const Vec3& normal, const Vec3& view);
+
 /// The lobe for a unit normal, a unit direction to the eye and a perceptual roughness in [0, 1]. A view along the
 /// normal leaves the tangent open, and the lobe is round there; a view at or below the horizon, as interpolated
-/// normals give, counts as the least angle above it in the same plane. What is not finite gives a lobe of albedo 0 and
-/// raises FE_INVALID.
+/// normals give, counts as the least angle above it in the same plane. A normal or view without length gives a lobe of
+/// albedo 0; so does input that is not finite, and raises FE_INVALID.
 PlacedLobe place_lobe(const Vec3& normal, const Vec3& view, double roughness);
 
-/// Share of the lobe that a light fills, in [0, 1], as seen from `point`; times the specular albedo and the light's
-/// radiance it is the radiance reflected to the eye. The rules of irradiance_of_... hold: which side emits, points
-/// inside, lights without area. Input that is not finite gives 0 and raises FE_INVALID.
+/// Share of the lobe that a light fills, in [0, 1], as seen from `point` (M17); times the specular albedo and the
+/// light's radiance it is the radiance reflected to the eye. The rules of irradiance_of_... hold: which side emits,
+/// points inside, lights without area. A light that does not rise above the true horizon gives exactly
+/// 0. Input that is not finite gives 0 and raises FE_INVALID.
 double specular_share_of_polygon(const PlacedLobe& lobe, std::span<const Vec3> corners, const Vec3& point,
                                  bool two_sided = false);
 double specular_share_of_ellipse(const PlacedLobe& lobe, const Ellipse<double>& ellipse, const Vec3& point,
                                  bool two_sided = false);
 double specular_share_of_ellipsoid(const PlacedLobe& lobe, const Ellipsoid<double>& ellipsoid, const Vec3& point);
 double specular_share_of_cylinder(const PlacedLobe& lobe, const Cylinder<double>& cylinder, const Vec3& point);
-/// Of a line, per metre of its width, in 1/m.
+/// Of a line, per metre of its width, in 1/m (M18); not bounded, as irradiance_of_line.
 double specular_share_of_line(const PlacedLobe& lobe, const Vec3& from, const Vec3& to, const Vec3& point);
 
 }  // namespace surimi

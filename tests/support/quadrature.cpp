@@ -48,6 +48,29 @@ Vec3l point_of(const Ellipse<Real>& e, Real t) {
     return e.centre + std::cos(t) * e.half_u + std::sin(t) * e.half_v;
 }
 
+/// Sum of the integrals between neighbouring ones of these ends.
+Real integral_between(const std::function<Real(Real)>& f, std::vector<Real> ends, Real relative) {
+    std::sort(ends.begin(), ends.end());
+    Real sum = 0;
+    for (size_t i = 0; i + 1 < ends.size(); ++i) sum += integral(f, ends[i], ends[i + 1], relative);
+    return sum;
+}
+
+/// The part of [0, end] in which start + s along is above the horizons of all these normals; empty: {0, 0}.
+std::pair<Real, Real> part_above(const std::vector<Vec3l>& normals, const Vec3l& start, const Vec3l& along, Real end) {
+    Real from = 0, to = end;
+    for (const Vec3l& n : normals) {
+        const Real height = glm::dot(n, start), slope = glm::dot(n, along);
+        if (height < 0) from = std::max(from, slope > 0 ? -height / slope : end);
+        if (height + slope * end < 0) to = std::min(to, slope < 0 ? std::max(Real(0), -height / slope) : 0);
+    }
+    return from < to ? std::pair(from, to) : std::pair(Real(0), Real(0));
+}
+
+bool is_above(const std::vector<Vec3l>& normals, const Vec3l& p) {
+    return std::all_of(normals.begin(), normals.end(), [&](const Vec3l& n) { return glm::dot(n, p) >= 0; });
+}
+
 }  // namespace
 
 Real integral(const std::function<Real(Real)>& f, Real a, Real b, Real relative) {
@@ -88,38 +111,60 @@ std::vector<std::pair<Real, Real>> parts_above(Real c, Real x, Real y, Real from
     return parts;
 }
 
-Real area_irradiance(const Ellipse<Real>& ellipse, const Vec3l& n) {
-    const Real side = std::abs(glm::dot(glm::cross(ellipse.half_u, ellipse.half_v), ellipse.centre));
-    const Real height = glm::dot(n, ellipse.centre);
-    const auto sector = [&](Real t) {
-        const Vec3l outwards = std::cos(t) * ellipse.half_u + std::sin(t) * ellipse.half_v;
-        const Real slope = glm::dot(n, outwards);
-        Real from = 0, to = 1;  // of the part of the radius above the horizon
-        if (height < 0) from = slope > 0 ? std::min(Real(1), -height / slope) : 1;
-        if (height >= 0 && slope < 0) to = std::min(Real(1), -height / slope);
-        return integral(
-            [&](Real r) {
-                const Vec3l p = ellipse.centre + r * outwards;
-                const Real square = glm::dot(p, p);
-                return r * side * std::max(Real(0), glm::dot(n, p)) / (square * square);
-            },
-            from, to);
+Receiver cosine_receiver(const Vec3l& n) {
+    const auto value = [n](const Vec3l& p) {
+        const Real square = glm::dot(p, p);
+        return std::max(Real(0), glm::dot(n, p)) / (square * square);
     };
-    // The sectors' integral has a kink where the outline crosses the horizon.
-    std::vector<Real> ends = {0, 2 * pi_l};
-    for (const auto& [from, to] :
-         parts_above(height, glm::dot(n, ellipse.half_u), glm::dot(n, ellipse.half_v), 0, 2 * pi_l))
-        ends.insert(ends.end(), {from, to});
-    std::sort(ends.begin(), ends.end());
-    Real sum = 0;
-    for (size_t i = 0; i + 1 < ends.size(); ++i) sum += integral(sector, ends[i], ends[i + 1], 1e-14L);
-    return sum;
+    return {value, {n}};
 }
 
-Real area_irradiance(const Ellipsoid<Real>& ellipsoid, const Vec3l& n) {
+Receiver lobe_receiver(const Mat3& to_cosine, const Vec3& normal) {
+    const glm::mat<3, 3, Real> matrix(to_cosine);
+    const Real determinant = glm::determinant(matrix);
+    const auto value = [matrix, determinant](const Vec3l& p) {
+        const Vec3l q = matrix * p;
+        const Real square = glm::dot(q, q);
+        return determinant * std::max(Real(0), q.z) / (pi_l * square * square);
+    };
+    return {value, {Vec3l(normal), glm::transpose(matrix)[2]}};
+}
+
+Real area_integral(const Vec3l& corner, const Vec3l& u, const Vec3l& v, const Receiver& receiver) {
+    const Real side = std::abs(glm::dot(glm::cross(u, v), corner));
+    const auto strip = [&](Real s) {
+        const auto [from, to] = part_above(receiver.normals, corner + s * u, v, 1);
+        return integral([&](Real t) { return side * receiver.value(corner + s * u + t * v); }, from, to);
+    };
+    // Kinks where a plane meets the first or the last edge.
+    std::vector<Real> ends = {0, 1};
+    for (const Vec3l& start : {corner, corner + v})
+        for (const Vec3l& n : receiver.normals) {
+            const auto [from, to] = part_above({n}, start, u, 1);
+            if (from < to) ends.insert(ends.end(), {from, to});
+        }
+    return integral_between(strip, ends, 1e-14L);
+}
+
+Real area_integral(const Ellipse<Real>& ellipse, const Receiver& receiver) {
+    const Real side = std::abs(glm::dot(glm::cross(ellipse.half_u, ellipse.half_v), ellipse.centre));
+    const auto sector = [&](Real t) {
+        const Vec3l outwards = std::cos(t) * ellipse.half_u + std::sin(t) * ellipse.half_v;
+        const auto [from, to] = part_above(receiver.normals, ellipse.centre, outwards, 1);
+        return integral([&](Real r) { return r * side * receiver.value(ellipse.centre + r * outwards); }, from, to);
+    };
+    // The sectors' integral has a kink where the outline crosses a horizon.
+    std::vector<Real> ends = {0, 2 * pi_l};
+    for (const Vec3l& n : receiver.normals)
+        for (const auto& [from, to] : parts_above(glm::dot(n, ellipse.centre), glm::dot(n, ellipse.half_u),
+                                                  glm::dot(n, ellipse.half_v), 0, 2 * pi_l))
+            ends.insert(ends.end(), {from, to});
+    return integral_between(sector, ends, 1e-14L);
+}
+
+Real area_integral(const Ellipsoid<Real>& ellipsoid, const Receiver& receiver) {
     const auto& v = ellipsoid.half_axes;
-    const Real volume = std::abs(glm::dot(v[0], glm::cross(v[1], v[2])));
-    const Real det = glm::dot(v[0], glm::cross(v[1], v[2]));
+    const Real det = glm::dot(v[0], glm::cross(v[1], v[2])), volume = std::abs(det);
     // In the space where the ellipsoid is the unit ball, the origin lies at distance `far` in the direction `pole`.
     const Vec3l origin =
         -Vec3l(glm::dot(glm::cross(v[1], v[2]), ellipsoid.centre), glm::dot(glm::cross(v[2], v[0]), ellipsoid.centre),
@@ -129,58 +174,69 @@ Real area_irradiance(const Ellipsoid<Real>& ellipsoid, const Vec3l& n) {
     const glm::mat<3, 3, Real> frame = frame_around<Real>(origin / far);
     const auto to_world = [&](const Vec3l& s) { return v[0] * s.x + v[1] * s.y + v[2] * s.z; };
     const Real rim = std::atan2(std::sqrt((far - 1) * (far + 1)), Real(1));
+    const Vec3l pole = to_world(frame[2]);
     return integral(
         [&](Real t) {
-            const Vec3l pole = to_world(frame[2]), side = to_world(std::cos(t) * frame[0] + std::sin(t) * frame[1]);
-            Real sum = 0;
-            for (const auto& [from, to] :
-                 parts_above(glm::dot(n, ellipsoid.centre), glm::dot(n, pole), glm::dot(n, side), 0, rim))
-                sum += integral(
-                    [&](Real angle) {
-                        const Vec3l p = ellipsoid.centre + std::cos(angle) * pole + std::sin(angle) * side;
-                        const Real square = glm::dot(p, p);
-                        return std::sin(angle) * volume * (far * std::cos(angle) - 1) * glm::dot(n, p) /
-                               (square * square);
-                    },
-                    from, to);
-            return sum;
+            const Vec3l side = to_world(std::cos(t) * frame[0] + std::sin(t) * frame[1]);
+            std::vector<Real> ends = {0, rim};
+            for (const Vec3l& n : receiver.normals)
+                for (const auto& [from, to] :
+                     parts_above(glm::dot(n, ellipsoid.centre), glm::dot(n, pole), glm::dot(n, side), 0, rim))
+                    ends.insert(ends.end(), {from, to});
+            return integral_between(
+                [&](Real angle) {
+                    const Vec3l p = ellipsoid.centre + std::cos(angle) * pole + std::sin(angle) * side;
+                    const Real facing = std::sin(angle) * volume * (far * std::cos(angle) - 1);
+                    return is_above(receiver.normals, p) ? facing * receiver.value(p) : 0;
+                },
+                ends, 1e-15L);
         },
         0, 2 * pi_l, 1e-12L);
 }
 
-Real area_irradiance(const Vec3l& a, const Vec3l& b, Real radius, const Vec3l& n) {
+Real area_integral(const Vec3l& a, const Vec3l& b, Real radius, const Receiver& receiver) {
     const Real length = glm::length(b - a);
     const glm::mat<3, 3, Real> frame = frame_around<Real>((b - a) / length);
     const Vec3l u = frame[0] * radius, v = frame[1] * radius;
     Real sum = 0;
-    if (glm::dot(a, frame[2]) > 0) sum += area_irradiance(Ellipse<Real>{a, v, u}, n);
-    if (glm::dot(b, frame[2]) < 0) sum += area_irradiance(Ellipse<Real>{b, u, v}, n);
+    if (glm::dot(a, frame[2]) > 0) sum += area_integral(Ellipse<Real>{a, v, u}, receiver);
+    if (glm::dot(b, frame[2]) < 0) sum += area_integral(Ellipse<Real>{b, u, v}, receiver);
     const auto strip = [&](Real t) {  // of the mantle, between the caps
         const Vec3l outwards = std::cos(t) * frame[0] + std::sin(t) * frame[1];
         const Vec3l foot = a + radius * outwards;
-        const Real height = glm::dot(n, foot), slope = glm::dot(n, frame[2]);
-        Real z0 = 0, z1 = length;
-        if (height < 0) z0 = slope > 0 ? std::min(length, -height / slope) : length;
-        if (height + slope * length < 0) z1 = slope < 0 ? std::max(Real(0), -height / slope) : 0;
-        return integral(
-            [&](Real z) {
-                const Vec3l p = foot + z * frame[2];
-                const Real square = glm::dot(p, p);
-                return radius * std::max(Real(0), glm::dot(n, p)) * std::max(Real(0), -glm::dot(outwards, p)) /
-                       (square * square);
-            },
-            z0, z1);
+        const auto [z0, z1] = part_above(receiver.normals, foot, frame[2], length);
+        const Real facing = radius * std::max(Real(0), -glm::dot(outwards, foot));
+        return integral([&](Real z) { return facing * receiver.value(foot + z * frame[2]); }, z0, z1);
     };
-    // It faces the origin where  outwards . p < 0,  p = a + R outwards + z axis; kinks where a rim meets the horizon.
+    // It faces the origin where  outwards . p < 0,  p = a + R outwards + z axis; kinks where a rim meets a horizon.
     for (const auto& [from, to] : parts_above(-radius, -glm::dot(a, frame[0]), -glm::dot(a, frame[1]), 0, 2 * pi_l)) {
         std::vector<Real> ends = {from, to};
         for (const Vec3l& cap : {a, b})
-            for (const auto& [left, right] : parts_above(glm::dot(n, cap), glm::dot(n, u), glm::dot(n, v), from, to))
-                ends.insert(ends.end(), {left, right});
-        std::sort(ends.begin(), ends.end());
-        for (size_t i = 0; i + 1 < ends.size(); ++i) sum += integral(strip, ends[i], ends[i + 1], 1e-13L);
+            for (const Vec3l& n : receiver.normals)
+                for (const auto& [left, right] :
+                     parts_above(glm::dot(n, cap), glm::dot(n, u), glm::dot(n, v), from, to))
+                    ends.insert(ends.end(), {left, right});
+        sum += integral_between(strip, ends, 1e-13L);
     }
     return sum;
+}
+
+Real line_integral(const Vec3l& from, const Vec3l& to, const Receiver& receiver) {
+    const Real side = glm::length(glm::cross(from, to - from));
+    const auto [start, end] = part_above(receiver.normals, from, to - from, 1);
+    return integral([&](Real s) { return side * receiver.value(from + s * (to - from)); }, start, end);
+}
+
+Real area_irradiance(const Ellipse<Real>& ellipse, const Vec3l& n) {
+    return area_integral(ellipse, cosine_receiver(n));
+}
+
+Real area_irradiance(const Ellipsoid<Real>& ellipsoid, const Vec3l& n) {
+    return area_integral(ellipsoid, cosine_receiver(n));
+}
+
+Real area_irradiance(const Vec3l& a, const Vec3l& b, Real radius, const Vec3l& n) {
+    return area_integral(a, b, radius, cosine_receiver(n));
 }
 
 Real outline_irradiance(const Ellipse<Real>& e, const Vec3l& normal_in_double) {

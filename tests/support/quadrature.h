@@ -21,8 +21,31 @@ Real integral(const std::function<Real(Real)>& f, Real a, Real b, Real relative 
 /// Parts of [from, to] (at most 2 pi long) where c + x cos(t) + y sin(t) >= 0.
 std::vector<std::pair<Real, Real>> parts_above(Real c, Real x, Real y, Real from, Real to);
 
+/// What a light's area is integrated with: a function of the place p on it, per area as seen from the origin (times
+/// |m.p|, m the unit normal), and the planes through the origin below which it is 0.
+struct Receiver {
+    std::function<Real(const Vec3l&)> value;
+    std::vector<Vec3l> normals;
+};
+
+/// (n.p) / |p|^4: integrals are irradiances.
+Receiver cosine_receiver(const Vec3l& n);
+/// The density of a lobe above the true horizon, over |p|^3: integrals are shares of the lobe, not divided by what of
+/// it is above. `to_cosine` and `normal` as in PlacedLobe.
+Receiver lobe_receiver(const Mat3& to_cosine, const Vec3& normal);
+
+/// Integral over the parallelogram corner + s u + t v, s and t in [0, 1], both sides.
+Real area_integral(const Vec3l& corner, const Vec3l& u, const Vec3l& v, const Receiver& receiver);
+/// Integral over both sides of an ellipse, over the part of an ellipsoid's surface that faces the origin, and over that
+/// of a capped cylinder from a to b. They share nothing with the contour integrals.
+Real area_integral(const Ellipse<Real>& ellipse, const Receiver& receiver);
+Real area_integral(const Ellipsoid<Real>& ellipsoid, const Receiver& receiver);
+Real area_integral(const Vec3l& a, const Vec3l& b, Real radius, const Receiver& receiver);
+/// Integral along a line, per width.
+Real line_integral(const Vec3l& from, const Vec3l& to, const Receiver& receiver);
+
 /// Irradiance at the origin with unit normal n of both sides of an ellipse: the double integral of (n.p)(m.p) / |p|^4
-/// over its area, cut at the horizon. Shares nothing with the contour integrals.
+/// over its area, cut at the horizon.
 Real area_irradiance(const Ellipse<Real>& ellipse, const Vec3l& n);
 /// The same of an ellipsoid, over the part of its surface that faces the origin.
 Real area_irradiance(const Ellipsoid<Real>& ellipsoid, const Vec3l& n);
