@@ -33,7 +33,7 @@ template <class T>
 bool cut_segment(const glm::vec<3, T>& normal, glm::vec<3, T>& a, glm::vec<3, T>& b) {
     const T height_a = glm::dot(a, normal), height_b = glm::dot(b, normal);
     if (height_a < 0 && height_b < 0) return false;
-    if (height_a < 0 || height_b < 0) (height_a < 0 ? a : b) = horizon_crossing(a, height_a, b, height_b);
+    if (height_a < 0 || height_b < 0) (height_a < 0 ? a : b) = horizon_crossing<T>({a, height_a}, {b, height_b});
     return true;
 }
 

@@ -86,18 +86,20 @@ double specular_share_of_polygon(const PlacedLobe& lobe, std::span<const Vec3> c
     polygon.normal = up;
     const auto add = [&](const Vec3& a, const Vec3& b) {
         const Vec3 p = lobe.to_cosine * a, q = lobe.to_cosine * b;
-        add_edge(polygon, p, p.z, q, q.z);
+        add_edge<double>(polygon, {p, p.z}, {q, q.z});
     };
     HorizonGap<double> gap;  // of the true horizon
-    Vec3 a = (corners.back() - point) * scale;
-    double height_a = glm::dot(a, lobe.normal), highest = height_a;
+    const auto elevated = [&](const Vec3& corner) -> Elevated<double> {
+        const Vec3 place = (corner - point) * scale;
+        return {place, glm::dot(place, lobe.normal)};
+    };
+    Elevated<double> a = elevated(corners.back());
+    double highest = a.height;
     for (const Vec3& corner : corners) {
-        const Vec3 b = (corner - point) * scale;
-        const double height_b = glm::dot(b, lobe.normal);
-        highest = std::max(highest, height_b);
-        cut_edge(gap, a, height_a, b, height_b, add, add);
+        const Elevated<double> b = elevated(corner);
+        highest = std::max(highest, b.height);
+        cut_edge(gap, a, b, add, add);
         a = b;
-        height_a = height_b;
     }
     if (!(highest > 0)) return 0;
     close_gap(gap, add);

@@ -21,10 +21,17 @@ T edge_integral(const glm::vec<3, T>& a, const glm::vec<3, T>& b, const glm::vec
     return sine > 0 ? std::atan2(sine, glm::dot(a, b)) * (glm::dot(c, normal) / sine) : T(0);
 }
 
+/// A place relative to the point, and its height above a horizon.
+template <class T>
+struct Elevated {
+    glm::vec<3, T> place{0};
+    T height = 0;
+};
+
 /// Where the line through a and b, whose heights have different signs, meets the horizon (M4).
 template <class T>
-glm::vec<3, T> horizon_crossing(const glm::vec<3, T>& a, T height_a, const glm::vec<3, T>& b, T height_b) {
-    return a * (height_b / (height_b - height_a)) - b * (height_a / (height_b - height_a));
+glm::vec<3, T> horizon_crossing(const Elevated<T>& a, const Elevated<T>& b) {
+    return a.place * (b.height / (b.height - a.height)) - b.place * (a.height / (b.height - a.height));
 }
 
 /// Where a contour goes below a horizon and comes back.
@@ -38,16 +45,15 @@ struct HorizonGap {
 /// Cuts an edge of a closed contour, whose edges come in order, at the horizon (M4). Calls add(a, b) for the part of
 /// the edge above it, and close(left, entered) where the contour comes back to the horizon.
 template <class T, class Add, class Close>
-void cut_edge(HorizonGap<T>& gap, const glm::vec<3, T>& a, T height_a, const glm::vec<3, T>& b, T height_b,
-              const Add& add, const Close& close) {
-    if (height_a >= 0 && height_b >= 0) {
-        add(a, b);
-    } else if (height_a >= 0) {
-        gap.left = horizon_crossing(a, height_a, b, height_b);
+void cut_edge(HorizonGap<T>& gap, const Elevated<T>& a, const Elevated<T>& b, const Add& add, const Close& close) {
+    if (a.height >= 0 && b.height >= 0) {
+        add(a.place, b.place);
+    } else if (a.height >= 0) {
+        gap.left = horizon_crossing(a, b);
         gap.is_below = true;
-        add(a, gap.left);
-    } else if (height_b >= 0) {
-        const glm::vec<3, T> entered = horizon_crossing(a, height_a, b, height_b);
+        add(a.place, gap.left);
+    } else if (b.height >= 0) {
+        const glm::vec<3, T> entered = horizon_crossing(a, b);
         if (gap.is_below) {
             close(gap.left, entered);
             gap.is_below = false;
@@ -55,7 +61,7 @@ void cut_edge(HorizonGap<T>& gap, const glm::vec<3, T>& a, T height_a, const glm
             gap.first_entered = entered;
             gap.began_below = true;
         }
-        add(entered, b);
+        add(entered, b.place);
     }
 }
 
@@ -85,13 +91,12 @@ void close_along_horizon(PolygonAbove<T>& polygon, const glm::vec<3, T>& left, c
         polygon.along_horizon += std::copysign(std::atan2(sine, cosine), glm::dot(c, polygon.normal));
 }
 
-/// Adds the next edge, from a to b, whose heights above the horizon are known.
+/// Adds the next edge, from a to b.
 template <class T>
-void add_edge(PolygonAbove<T>& polygon, const glm::vec<3, T>& a, T height_a, const glm::vec<3, T>& b, T height_b) {
+void add_edge(PolygonAbove<T>& polygon, const Elevated<T>& a, const Elevated<T>& b) {
     using V = glm::vec<3, T>;
     cut_edge(
-        polygon.gap, a, height_a, b, height_b,
-        [&](const V& p, const V& q) { polygon.sum += edge_integral(p, q, polygon.normal); },
+        polygon.gap, a, b, [&](const V& p, const V& q) { polygon.sum += edge_integral(p, q, polygon.normal); },
         [&](const V& left, const V& entered) { close_along_horizon(polygon, left, entered); });
 }
 
@@ -149,14 +154,15 @@ T irradiance_of_polygon(std::span<const glm::vec<3, T>> corners, const glm::vec<
     const T scale = unit_scale(largest);
     PolygonAbove<T> polygon;
     polygon.normal = normal;
-    V a = (corners[corners.size() - 1] - point) * scale;
-    T height_a = glm::dot(a, normal);
+    const auto elevated = [&](const V& corner) -> Elevated<T> {
+        const V place = (corner - point) * scale;
+        return {place, glm::dot(place, normal)};
+    };
+    Elevated<T> a = elevated(corners[corners.size() - 1]);
     for (const V& corner : corners) {
-        const V b = (corner - point) * scale;
-        const T height_b = glm::dot(b, normal);
-        add_edge(polygon, a, height_a, b, height_b);
+        const Elevated<T> b = elevated(corner);
+        add_edge(polygon, a, b);
         a = b;
-        height_a = height_b;
     }
     return irradiance_above(polygon, two_sided);
 }

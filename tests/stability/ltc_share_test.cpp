@@ -2,6 +2,8 @@
 // Shares of a lobe in the cases that break published code: light from below the surface, and light that cancels.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "runtime/ltc/placed_lobe.h"
 #include "tests/stability/hazard.h"
 
@@ -69,6 +71,42 @@ TEST(ShareHazard, H28_RisingLightsAppearWithoutAJump_M17) {
         jump.add(specular_share_of_polygon(lobe, lights.corners, Vec3(0), true));
     }
     jump.expect_below(1e-5, "jump");
+}
+
+TEST(ShareHazard, H30_CombsAcrossTheHorizonAreTheirParts_M17) {
+    // Polygons that leave and enter the horizon up to six times.
+    Choice choice{{30}};
+    Worst plain, in_lobe;
+    int cut = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const Mat3 turn = frame_of_view(choice.direction(), choice.direction());
+        const Vec3 shift = 2.0 * choice.direction();
+        const auto place = [&](double x, double y) { return turn * Vec3(x, y, 0.0) + shift; };
+        const auto bar = [&](double x0, double x1, double y0, double y1) {
+            return Corners{place(x0, y0), place(x1, y0), place(x1, y1), place(x0, y1)};
+        };
+        const Corners comb = {place(-2.5, -1), place(-1.5, -1), place(-1.5, 1), place(-0.5, 1),
+                              place(-0.5, -1), place(0.5, -1),  place(0.5, 1),  place(1.5, 1),
+                              place(1.5, -1),  place(2.5, -1),  place(2.5, 2),  place(-2.5, 2)};
+        const Vec3 n = choice.direction();
+        const PlacedLobe lobe = place_lobe(n, choice.direction(), choice.between(0.2, 1));
+        double sum = 0, share = 0;
+        for (const Corners& part :
+             {bar(-2.5, -1.5, -1, 1), bar(-0.5, 0.5, -1, 1), bar(1.5, 2.5, -1, 1), bar(-2.5, 2.5, 1, 2)}) {
+            sum += of(part, n);
+            share += specular_share_of_polygon(lobe, part, Vec3(0), true);
+        }
+        plain.add(std::abs(of(comb, n) - sum) / pi);
+        in_lobe.add(std::abs(specular_share_of_polygon(lobe, comb, Vec3(0), true) - share));
+        Corners from_elsewhere = comb;  // the contour may begin anywhere, below the horizon too
+        std::rotate(from_elsewhere.begin(), from_elsewhere.begin() + i % 12, from_elsewhere.end());
+        plain.add(std::abs(of(from_elsewhere, n) - sum) / pi);
+        const auto height = [&](size_t corner) { return glm::dot(comb[corner], n); };
+        cut += height(0) < 0 && height(2) > 0 && height(4) < 0 && height(6) > 0 && height(8) < 0;
+    }
+    EXPECT_GT(cut, 30);
+    plain.expect_below(1e-12, "irradiance");
+    in_lobe.expect_below(1e-10, "share");
 }
 
 TEST(ShareHazard, H18_LightsThatCancelAreFinite_M17) {
