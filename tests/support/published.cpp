@@ -11,46 +11,48 @@ namespace {
 
 constexpr int size = ltc_size;
 
-/// What the two textures of a shader hold.
-struct Texel {
-    Vec4f entries;  ///< x, y, z, w of the inverse matrix
-    Vec4f rest;     ///< albedo, Fresnel's part, unused, sphere
+/// The textures of a shader, row by row.
+struct Textures {
+    std::vector<Vec4f> entries;  ///< x, y, z, w of the inverse matrix
+    std::vector<Vec2f> albedos;  ///< albedo and Fresnel's part
+    std::vector<float> sphere;
 };
 
 /// Between the texels of a 64 x 64 table, with coordinates in [0, 1] from the first node to the last.
 struct Bilinear {
     size_t at;
-    float right, down;
+    float a, b, c, d;  ///< weights of this texel, the one to the right, those below
 
     Bilinear(float u, float v) {
         const float x = std::clamp(u, 0.0F, 1.0F) * (size - 1), y = std::clamp(v, 0.0F, 1.0F) * (size - 1);
         const int column = std::min(static_cast<int>(x), size - 2), row = std::min(static_cast<int>(y), size - 2);
         at = static_cast<size_t>(row * size + column);
-        right = x - static_cast<float>(column);
-        down = y - static_cast<float>(row);
+        const float right = x - static_cast<float>(column), down = y - static_cast<float>(row);
+        a = (1 - right) * (1 - down), b = right * (1 - down), c = (1 - right) * down, d = right * down;
     }
-    template <class Read>
-    auto operator()(const Read& read) const {
-        return (read(at) * (1 - right) + read(at + 1) * right) * (1 - down) +
-               (read(at + size) * (1 - right) + read(at + size + 1) * right) * down;
+    template <class Texel>
+    Texel operator()(const std::vector<Texel>& texels) const {
+        const Texel* first = texels.data() + at;
+        return first[0] * a + first[1] * b + first[size] * c + first[size + 1] * d;
     }
 };
 
-std::vector<Texel> make_texels() {
-    std::vector<Texel> texels;
+Textures make_textures() {
+    Textures textures;
     for (int row = 0; row < size; ++row)
         for (int column = 0; column < size; ++column) {
             const LtcCell cell = ltc_cell(column, row);
             const Mat3 m = inverse_matrix(cell.shape, ltc_column_alpha(column), ltc_row_cosine(row));
+            textures.entries.emplace_back(m[0].x, m[0].z, m[2].x, m[2].z);
+            textures.albedos.emplace_back(cell.albedo, cell.albedo * std::pow(cell.fresnel_root, 5));
             const double length = row / (size - 1.0), cosine = 2 * (column / (size - 1.0)) - 1;
-            const double sphere = row == 0 ? std::max(cosine, 0.0) : clipped_sphere(length, cosine) / length;
-            texels.push_back({Vec4f(m[0].x, m[0].z, m[2].x, m[2].z),
-                              Vec4f(cell.albedo, cell.albedo * std::pow(cell.fresnel_root, 5), 0, sphere)});
+            const double ratio = row == 0 ? std::max(cosine, 0.0) : clipped_sphere(length, cosine) / length;
+            textures.sphere.push_back(static_cast<float>(ratio));
         }
-    return texels;
+    return textures;
 }
 
-const std::vector<Texel> texels = make_texels();
+const Textures textures = make_textures();
 
 struct Placed {
     PublishedLobe lobe;
@@ -73,14 +75,14 @@ Placed place(const Vec3f corners[4], Vec3f point, Vec3f normal, Vec3f view, floa
 }  // namespace
 
 float tabled_sphere_ratio(float length, float cosine) {
-    return Bilinear(cosine * 0.5F + 0.5F, length)([](size_t i) { return texels[i].rest.w; });
+    return Bilinear(cosine * 0.5F + 0.5F, length)(textures.sphere);
 }
 
 PublishedLobe published_lobe(float roughness, float cosine) {
     const Bilinear between(roughness, std::sqrt(1 - cosine));
-    const Vec4f m = between([](size_t i) { return texels[i].entries; });
-    const Vec4f rest = between([](size_t i) { return texels[i].rest; });
-    return {glm::mat3(m.x, 0, m.y, 0, 1, 0, m.z, 0, m.w), rest.x, rest.y};
+    const Vec4f m = between(textures.entries);
+    const Vec2f albedo = between(textures.albedos);
+    return {glm::mat3(m.x, 0, m.y, 0, 1, 0, m.z, 0, m.w), albedo.x, albedo.y};
 }
 
 Shares published_quad(const Vec3f corners[4], Vec3f point, Vec3f normal, Vec3f view, float roughness) {

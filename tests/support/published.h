@@ -30,28 +30,19 @@ glm::vec<3, T> published_edge(const glm::vec<3, T>& a, const glm::vec<3, T>& b) 
     return glm::cross(a, b) * published_edge_weight(glm::dot(a, b));
 }
 
-/// Corners of a quad that are above the horizon: `count` of them, from `first` on.
-struct CornersAbove {
-    int first, count;
-};
+/// Vector form factor of the polygon with these corners, any length each, by its edges.
+template <class V, class... Rest>
+V published_sum(const V& first, const Rest&... rest) {
+    const std::array<V, sizeof...(Rest) + 1> p = {glm::normalize(first), glm::normalize(rest)...};
+    V sum = published_edge(p.back(), p.front());
+    for (size_t i = 1; i < p.size(); ++i) sum += published_edge(p[i - 1], p[i]);
+    return sum;
+}
 
-/// By the bits "corner i is above". Two opposite corners alone (5 and 10) cannot be, and count as nothing.
-inline constexpr std::array<CornersAbove, 16> corners_above_by_bits = {{{0, 0},
-                                                                        {0, 1},
-                                                                        {1, 1},
-                                                                        {0, 2},
-                                                                        {2, 1},
-                                                                        {0, 0},
-                                                                        {1, 2},
-                                                                        {0, 3},
-                                                                        {3, 1},
-                                                                        {3, 2},
-                                                                        {0, 0},
-                                                                        {3, 3},
-                                                                        {2, 2},
-                                                                        {2, 3},
-                                                                        {1, 3},
-                                                                        {0, 4}}};
+/// Corners of a quad that are above the horizon, by the bits "corner i is above": the first of the run, and how many.
+/// Two opposite corners alone (5 and 10) cannot be, and count as nothing.
+inline constexpr std::array<unsigned, 16> first_above = {0, 0, 1, 0, 2, 0, 1, 0, 3, 3, 0, 3, 2, 2, 1, 0};
+inline constexpr std::array<unsigned, 16> count_above = {0, 1, 1, 2, 1, 0, 2, 3, 1, 2, 0, 3, 2, 3, 3, 4};
 
 /// Form factor of a quad (four corners, counter-clockwise seen from the side that emits) under a cosine, as Heitz,
 /// Dupuy, Hill and Neubelt 2016 and most renderers compute it: clipped at z = 0 by cases with crossings that are not
@@ -63,20 +54,27 @@ T published_polygon(std::span<const glm::vec<3, T>> corners_in_cosine_space, boo
     const V* corners = corners_in_cosine_space.data();
     const unsigned bits = (corners[0].z > 0 ? 1U : 0U) + (corners[1].z > 0 ? 2U : 0U) + (corners[2].z > 0 ? 4U : 0U) +
                           (corners[3].z > 0 ? 8U : 0U);
-    const auto [first, count] = corners_above_by_bits[bits];
-    if (count == 0) return 0;
-    std::array<V, 5> contour;
-    size_t size = 0;
-    for (int i = 0; i < count; ++i) contour[size++] = glm::normalize(corners[(first + i) % 4]);
-    if (count < 4) {
-        const auto crossing = [](const V& above, const V& below) {
-            return glm::normalize(above.z * below - below.z * above);
-        };
-        contour[size++] = crossing(corners[(first + count - 1) % 4], corners[(first + count) % 4]);
-        contour[size++] = crossing(corners[first], corners[(first + 3) % 4]);
+    const unsigned first = first_above[bits];
+    const V &a = corners[first], &b = corners[(first + 1) % 4], &c = corners[(first + 2) % 4],
+            &d = corners[(first + 3) % 4];
+    const auto crossing = [](const V& above, const V& below) { return above.z * below - below.z * above; };
+    T sum = 0;
+    switch (count_above[bits]) {
+        case 1:
+            sum = published_sum(a, crossing(a, b), crossing(a, d)).z;
+            break;
+        case 2:
+            sum = published_sum(a, b, crossing(b, c), crossing(a, d)).z;
+            break;
+        case 3:
+            sum = published_sum(a, b, c, crossing(c, d), crossing(a, d)).z;
+            break;
+        case 4:
+            sum = published_sum(a, b, c, d).z;
+            break;
+        default:
+            break;
     }
-    T sum = published_edge(contour[size - 1], contour[0]).z;
-    for (size_t i = 1; i < size; ++i) sum += published_edge(contour[i - 1], contour[i]).z;
     return two_sided ? std::abs(sum) : std::max(-sum, T(0));
 }
 
@@ -125,9 +123,7 @@ T clipless_polygon(std::span<const glm::vec<3, T>> corners_in_cosine_space, Prox
     const V* corners = corners_in_cosine_space.data();
     const bool is_behind = glm::dot(glm::cross(corners[1] - corners[0], corners[3] - corners[0]), corners[0]) > 0;
     if (is_behind && !two_sided) return 0;
-    const V a = glm::normalize(corners[0]), b = glm::normalize(corners[1]), c = glm::normalize(corners[2]),
-            d = glm::normalize(corners[3]);
-    const V sum = published_edge(a, b) + published_edge(b, c) + published_edge(c, d) + published_edge(d, a);
+    const V sum = published_sum(corners[0], corners[1], corners[2], corners[3]);
     const T length = glm::length(sum), cosine = sum.z / length;
     return at_horizon(length, is_behind ? cosine : -cosine, proxy);
 }
