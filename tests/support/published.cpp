@@ -24,7 +24,8 @@ struct Bilinear {
     float a, b, c, d;  ///< weights of this texel, the one to the right, those below
 
     Bilinear(float u, float v) {
-        const float x = std::clamp(u, 0.0F, 1.0F) * (size - 1), y = std::clamp(v, 0.0F, 1.0F) * (size - 1);
+        // Comparisons that are false for NaN, which a graphics processor clamps, too.
+        const float x = (u > 0 ? std::min(u, 1.0F) : 0) * (size - 1), y = (v > 0 ? std::min(v, 1.0F) : 0) * (size - 1);
         const int column = std::min(static_cast<int>(x), size - 2), row = std::min(static_cast<int>(y), size - 2);
         at = static_cast<size_t>(row * size + column);
         const float right = x - static_cast<float>(column), down = y - static_cast<float>(row);

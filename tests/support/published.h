@@ -85,8 +85,8 @@ enum class Proxy {
     fraction  ///< (l^2 + z) / (l + 1), l: length of the vector form factor, z: its part along the normal (three.js)
 };
 
-/// Form factor of a sphere that shows half of itself or less, or all: `length` is the squared sine of its angular
-/// radius, `cosine` that of the direction to it (Lagarde and de Rousiers 2014, after Snyder 1996).
+/// Form factor of a sphere at the horizon or away from it: `length` in [0, 1] is the squared sine of its angular
+/// radius, `cosine` in [-1, 1] that of the direction to it (Lagarde and de Rousiers 2014, after Snyder 1996).
 template <class T>
 T clipped_sphere(T length, T cosine) {
     if (cosine * cosine >= length) return std::max(cosine, T(0)) * length;
@@ -114,8 +114,7 @@ T at_horizon(T length, T cosine, Proxy proxy) {
     return 0;
 }
 
-/// The same form factor without clipping: Lambert's vector of the whole quad, then the proxy. NaN where the vector is
-/// 0.
+/// The same form factor without clipping: Lambert's vector of the whole quad, then the proxy. NaN for a vector of 0.
 template <class T>
 T clipless_polygon(std::span<const glm::vec<3, T>> corners_in_cosine_space, Proxy proxy, bool two_sided = false) {
     using V = glm::vec<3, T>;
