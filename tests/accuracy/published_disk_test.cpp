@@ -97,7 +97,7 @@ const Row& row(const std::string& name) {
 }
 
 TEST(PublishedDisk, OursIsExactInEveryFamily_M10_M11) {
-    // Relative 1e-6 but for nothing: the hazards' tolerance (research H19 to H22), absolute 1e-7 across the horizon.
+    // The hazards' tolerances: relative 1e-6 above the horizon (H19 to H22), absolute 1e-7 everywhere.
     ASSERT_EQ(rows().size(), 17U);
     for (const auto& [name, r] : rows()) {
         EXPECT_EQ(r.ours.nan, 0U) << name;
