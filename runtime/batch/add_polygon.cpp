@@ -48,7 +48,8 @@ HWY_INLINE V share_of(D d, const hn::TFromD<D>* arcs, std::span<const uint8_t> i
         if constexpr (sizeof(T) == sizeof(float)) {
             const V most = hn::Set(d, 1e36f);
             const auto is_large = hn::Not(hn::And(hn::Lt(sine2, most), hn::Lt(hn::Mul(cosine, cosine), most)));
-            const auto is_small = hn::And(hn::Lt(sine2, hn::Set(d, 1e-36f)), hn::Lt(cosine, hn::Set(d, 1e-6f)));
+            const auto is_small =
+                hn::And(hn::Lt(sine2, hn::Set(d, least_sine2)), hn::Lt(cosine, hn::Set(d, least_cosine)));
             is_trusted = hn::AndNot(hn::Or(is_large, is_small), is_trusted);
         }
     }
@@ -58,9 +59,9 @@ HWY_INLINE V share_of(D d, const hn::TFromD<D>* arcs, std::span<const uint8_t> i
     return hn::IfThenElseZero(hn::Gt(shown, hn::Zero(d)), hn::Min(shown, hn::Set(d, T(1))));
 }
 
-/// The shares of one block of as many points as T has lanes.
+/// The shares of one block, as many points from `begin` on as T has lanes.
 template <class T>
-HWY_INLINE void evaluate_block(const PolygonJob& job, const BlockInput& in, Workspace<T>& work) {
+HWY_INLINE void evaluate_block(const PolygonJob& job, const BlockInput& in, size_t begin, Workspace<T>& work) {
     const hn::ScalableTag<T> d;
     const D64 wide;
     const V64 one = hn::Set(wide, 1.0);
@@ -69,8 +70,7 @@ HWY_INLINE void evaluate_block(const PolygonJob& job, const BlockInput& in, Work
     std::fill(work.needs_specular.begin(), work.needs_specular.end(), uint8_t{0});
     // Geometry is double, in as many parts as fill the lanes.
     for (size_t first = 0; first < lanes; first += hn::Lanes(wide)) {
-        const BlockInput part = moved(in, first);
-        const Receivers receivers = load_receivers(part, job.scale, job.has_specular);
+        const Receivers receivers = load_receivers(in, begin + first, job.scale, job.has_specular);
         const ArcWriter<T> diffuse(work.diffuse.get(), work.needs_diffuse.data(), lanes, first);
         const ArcWriter<T> specular(work.specular.get(), work.needs_specular.data(), lanes, first);
         const Sight sight = write_contour(job, receivers, diffuse, specular);
@@ -79,7 +79,8 @@ HWY_INLINE void evaluate_block(const PolygonJob& job, const BlockInput& in, Work
         store_as(hn::IfThenElseZero(is_near, one), &work.trust[first]);
         store_as(hn::IfThenElseZero(sight.is_above, one), &work.aboveness[first]);
         if (job.has_specular)
-            store_as(hn::LoadU(wide, part.field[static_cast<size_t>(Field::share_above)]), &work.share_above[first]);
+            store_as(hn::LoadU(wide, in.field[static_cast<size_t>(Field::share_above)] + begin + first),
+                     &work.share_above[first]);
     }
     const auto all = hn::Set(d, T(1));
     auto is_trusted = hn::Gt(hn::Load(d, work.trust.data()), hn::Zero(d));
@@ -141,7 +142,7 @@ void evaluate_listed(const PolygonJob& job, const BlockInput& all, std::span<con
     GatheredPoints<Workspace<T>::most_lanes> gathered;
     for (size_t i = 0; i < indices.size(); i += lanes) {
         const auto block = indices.subspan(i, std::min(lanes, indices.size() - i));
-        evaluate_block(job, gathered.gather(all, block), work);
+        evaluate_block(job, gathered.gather(all, block), 0, work);
         add_block(job, work, block, shares, again);
     }
 }
@@ -157,7 +158,7 @@ void evaluate_all(const PolygonJob& job, const BlockInput& all, size_t count, Sh
     for (; i + lanes <= count; i += lanes) {
         if (!job.is_wanted.empty() && std::ranges::count(job.is_wanted.subspan(i, lanes), 0) == std::ptrdiff_t(lanes))
             continue;
-        evaluate_block(job, moved(all, i), work);
+        evaluate_block(job, all, i, work);
         for (size_t k = 0; k < lanes; ++k) indices[k] = static_cast<uint32_t>(i + k);
         add_block<T>(job, work, {indices.data(), lanes}, shares, again);
     }

@@ -20,11 +20,15 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// atan2(s, cosine) * height / s with s = sqrt(sine2): the angle of an edge times its plane's normal along the
-/// receiver's (M15). 0 where sine2 is 0. All three may have been scaled by any factor, sine2 by its square.
+/// receiver's (M15). All three may have been scaled by any factor, sine2 by its square. |height| is at most s. Where
+/// sine2 is below 1e-200, in float least_sine2, the cosine is to be positive and larger by far; else the angle is lost.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V arc(D d, V sine2, V cosine, V height) {
     using T = hn::TFromD<D>;
-    const V zero = hn::Zero(d), sine = hn::Sqrt(sine2), size = hn::Abs(cosine);
+    // Small sines may be replaced by larger ones: next to 0 the result does not depend on them. These are the least
+    // whose cubes do not underflow, which would take a hundred times as long.
+    const V least = hn::Set(d, sizeof(T) == sizeof(double) ? static_cast<T>(1e-200) : static_cast<T>(least_sine2));
+    const V zero = hn::Zero(d), sine = hn::Sqrt(hn::Max(sine2, least)), size = hn::Abs(cosine);
     const V small = hn::Min(sine, size), large = hn::Max(sine, size);
     const auto is_turned = hn::Gt(small, hn::Mul(hn::Set(d, static_cast<T>(arctangent_end)), large));
     const V over = hn::IfThenElse(is_turned, hn::Sub(small, large), small);
@@ -38,8 +42,7 @@ HWY_INLINE V arc(D d, V sine2, V cosine, V height) {
     angle = hn::Add(angle, hn::IfThenElseZero(is_turned, hn::Set(d, static_cast<T>(pi / 4))));
     angle = hn::IfThenElse(hn::Gt(sine, size), hn::Sub(hn::Set(d, static_cast<T>(pi / 2)), angle), angle);
     angle = hn::IfThenElse(hn::Lt(cosine, zero), hn::Sub(hn::Set(d, static_cast<T>(pi)), angle), angle);
-    const V slope = hn::Mul(hn::Mul(height, under), inverse);
-    return hn::IfThenElseZero(hn::Gt(sine2, zero), hn::Mul(angle, slope));
+    return hn::Mul(angle, hn::Mul(hn::Mul(height, under), inverse));
 }
 
 }  // namespace HWY_NAMESPACE

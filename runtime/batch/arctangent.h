@@ -19,4 +19,7 @@ template <>
 inline constexpr auto arctangent<float> =
     std::array<float, 5>{-0.3333331519f, 0.1999847153f, -0.1424353369f, 0.1059381626f, -0.06078227657f};
 
+/// Squared sine (times the ends' lengths) below which float needs a cosine of at least `least_cosine`.
+inline constexpr float least_sine2 = 1e-24f, least_cosine = 1e-6f;
+
 }  // namespace surimi

@@ -104,9 +104,10 @@ struct Receivers {
     M64 is_sound;                    ///< everything is finite
 };
 
-HWY_INLINE Receivers load_receivers(const BlockInput& in, double scale, bool has_lobe) {
+/// From the `first` point of `in` on.
+HWY_INLINE Receivers load_receivers(const BlockInput& in, size_t first, double scale, bool has_lobe) {
     const D64 d;
-    const auto at = [&](Field f) HWY_ATTR { return hn::LoadU(d, in.field[static_cast<size_t>(f)]); };
+    const auto at = [&](Field f) HWY_ATTR { return hn::LoadU(d, in.field[static_cast<size_t>(f)] + first); };
     const V64 zero = hn::Zero(d);
     Receivers r;
     r.position = {at(Field::position_x), at(Field::position_y), at(Field::position_z)};

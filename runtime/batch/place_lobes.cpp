@@ -34,20 +34,22 @@ HWY_INLINE std::array<V64, 6> look_up(V64 column, V64 row) {
     HWY_ALIGN std::array<double, most_lanes> x, y;
     HWY_ALIGN std::array<std::array<double, most_lanes>, 6> numbers;
     HWY_ALIGN std::array<double, ltc_cell_floats> cell;
+    const float* table = ltc_cells();
     hn::Store(column, d, x.data());
     hn::Store(row, d, y.data());
     for (size_t lane = 0; lane < hn::Lanes(d); ++lane) {
-        const size_t i = std::min(static_cast<size_t>(x[lane]), size_t{ltc_size - 2});
-        const size_t j = std::min(static_cast<size_t>(y[lane]), size_t{ltc_size - 2});
-        const double u = x[lane] - static_cast<double>(i), v = y[lane] - static_cast<double>(j);
-        const float* at = ltc_cells() + (j * ltc_size + i) * ltc_cell_floats;
+        const int i = std::min(static_cast<int>(x[lane]), ltc_size - 2);
+        const int j = std::min(static_cast<int>(y[lane]), ltc_size - 2);
+        const double u = x[lane] - i, v = y[lane] - j;
+        const float* at = table + static_cast<size_t>(j * ltc_size + i) * ltc_cell_floats;
         for (size_t k = 0; k < numbers.size(); k += hn::Lanes(wide)) {
-            const auto part = [&](size_t cells, double share) HWY_ATTR {
-                const auto stored = hn::Load(narrow, at + cells * ltc_cell_floats + k);
-                return hn::Mul(hn::PromoteTo(wide, stored), hn::Set(wide, share));
+            const auto number = [&](size_t cells) HWY_ATTR {
+                return hn::PromoteTo(wide, hn::Load(narrow, at + cells * ltc_cell_floats + k));
             };
-            const auto upper = hn::Add(part(0, (1 - u) * (1 - v)), part(1, u * (1 - v)));
-            const auto lower = hn::Add(part(ltc_size, (1 - u) * v), part(ltc_size + 1, u * v));
+            const auto upper =
+                hn::MulAdd(number(1), hn::Set(wide, u * (1 - v)), hn::Mul(number(0), hn::Set(wide, (1 - u) * (1 - v))));
+            const auto lower = hn::MulAdd(number(ltc_size + 1), hn::Set(wide, u * v),
+                                          hn::Mul(number(ltc_size), hn::Set(wide, (1 - u) * v)));
             hn::Store(hn::Add(upper, lower), wide, cell.data() + k);
         }
         for (size_t k = 0; k < numbers.size(); ++k) numbers[k][lane] = cell[k];
@@ -112,9 +114,10 @@ HWY_INLINE void place_block(const PointFields& in, const LobeFields& out) {
 
     // (M25), where xx > 0 without cancellation.
     const V64 zx2 = hn::Mul(zx, zx), length = hn::Sqrt(hn::MulAdd(xx, xx, zx2));
-    const V64 small = hn::Div(hn::Mul(half, zx2), hn::Mul(length, hn::Add(length, xx)));
-    const V64 large = hn::NegMulAdd(half, hn::Div(xx, length), half);
-    const V64 leak = hn::IfThenElseZero(hn::Gt(length, zero), hn::IfThenElse(hn::Gt(xx, zero), small, large));
+    const auto is_forward = hn::Gt(xx, zero);
+    const V64 over = hn::IfThenElse(is_forward, zx2, hn::Sub(length, xx));
+    const V64 under = hn::IfThenElse(is_forward, hn::Mul(length, hn::Add(length, xx)), length);
+    const V64 leak = hn::IfThenElseZero(hn::Gt(length, zero), hn::Div(hn::Mul(half, over), under));
     const V64 root2 = hn::Mul(n[5], n[5]), albedo = hn::IfThenElseZero(is_sound, n[4]);
 
     const std::array<V64, 10> result = {

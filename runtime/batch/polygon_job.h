@@ -47,11 +47,4 @@ struct BlockInput {
     std::array<const double*, static_cast<size_t>(Field::count)> field;
 };
 
-/// The same, `count` points further on.
-inline BlockInput moved(BlockInput in, size_t count) {
-    for (const double*& field : in.field)
-        if (field) field += count;
-    return in;
-}
-
 }  // namespace surimi

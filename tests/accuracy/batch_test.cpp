@@ -89,6 +89,32 @@ TEST_F(BatchAccuracy, MixedKeepsSevenDigitsInEveryHazard_M15) {
     expect_families_below(Precision::mixed, 4.2e-7);
 }
 
+TEST_F(BatchAccuracy, H3_MixedKeepsDigitsOfTinyLights_M15) {
+    Random random{3};
+    const auto number = [&] { return 2 * random.next() - 1; };
+    for (const std::string& set : instruction_sets()) {
+        use_instruction_set(set);
+        for (const double size : {1e-1, 2e-2, 1e-3, 1e-5}) {
+            double error = 0;
+            for (int i = 0; i < 300; ++i) {
+                // Facing the point roughly, and above its horizon.
+                const Vec3 centre(number(), number(), 2), n = normalize_or({0.3 * number(), 0.3 * number(), 1}, centre);
+                const Vec3 view = normalize_or({0.5, 0.2 * number(), 1}, n);
+                const Vec3 u = size * Vec3(1, 0.2 * number(), 0.3 * number()), v = size * Vec3(0.2 * number(), 1, 0);
+                const std::vector<Vec3> corners = {centre - u - v, centre + u - v, centre + u + v, centre - u + v};
+                const ShareBatch shares = shares_of(single(Vec3(0), n, view, 1), corners, Precision::mixed);
+                error = std::max(error, std::abs(shares.diffuse[0] / test::exact_diffuse(corners, Vec3(0), n) - 1));
+                const double specular = test::exact_specular(corners, Vec3(0), n, view, 1);
+                error = std::max(error, std::abs(shares.specular[0] / specular - 1));
+            }
+            // Four edges of angle t, 0.8 size at least, err by up to 7 x 2^-24 of t / 2 pi each; the share is t^2 / pi
+            // times the two cosines, 1/3 at least. Below 0.01 rad everything is double.
+            EXPECT_LT(error, size < 5e-3 ? 1e-9 : 2.6e-6 / (0.8 * size)) << set << ' ' << size;
+            EXPECT_GT(error, 0);
+        }
+    }
+}
+
 TEST_F(BatchAccuracy, DiffuseIsTheScalarPath_M1) {
     const auto families = test::shading_families(40, 5);
     for (const std::string& set : instruction_sets()) {
