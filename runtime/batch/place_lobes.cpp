@@ -26,7 +26,7 @@ using PointFields = std::array<const double*, 10>;
 using LobeFields = std::array<double*, 10>;
 
 /// The six interpolated numbers of the table for each lane (M27). A cell's numbers lie side by side, so each lane reads
-/// four cells whole; gathering number by number took 24 loads a lane.
+/// four cells whole; gathering number by number would take 24 gathers.
 HWY_INLINE std::array<V64, 6> look_up(V64 column, V64 row) {
     const D64 d;
     const hn::CappedTag<double, ltc_cell_floats> wide;
