@@ -21,9 +21,12 @@ int main() {
     const double irradiance = surimi::irradiance_of_polygon<double>(screen, point, normal);
     const double diffuse = reflectance / surimi::pi * radiance * irradiance;
 
-    const surimi::PlacedLobe lobe = surimi::place_lobe(normal, glm::normalize(eye - point), roughness);
-    const double albedo = f0 * lobe.albedo + (1 - f0) * lobe.fresnel;
-    const double specular = albedo * radiance * surimi::specular_share_of_polygon(lobe, screen, point);
+    double specular = 0;  // F0 times one lobe, 1 - F0 times another
+    for (const auto part : {surimi::LobePart::full, surimi::LobePart::schlick}) {
+        const surimi::PlacedLobe lobe = surimi::place_lobe(normal, glm::normalize(eye - point), roughness, part);
+        const double albedo = (part == surimi::LobePart::full ? f0 : 1 - f0) * lobe.albedo;
+        specular += albedo * radiance * surimi::specular_share_of_polygon(lobe, screen, point);
+    }
     std::printf("unshadowed: diffuse %.5f specular %.5f\n", diffuse, specular);
 
     // A program reads the map from room.visibility.exr; R is the first monitor. This one is twice as bright on the

@@ -10,6 +10,7 @@
 
 #include "baker/cli/commands.h"
 #include "baker/write/file.h"
+#include "runtime/base/color.h"
 #include "runtime/base/error.h"
 #include "runtime/compare/compare.h"
 #include "runtime/image/image_file.h"

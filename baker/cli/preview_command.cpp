@@ -155,6 +155,7 @@ LightingSettings lighting_settings(const PreviewOptions& options) {
     if (options.visibility == "none") settings.visibility = VisibilitySource::none;
     if (options.visibility == "stochastic") settings.visibility = VisibilitySource::stochastic;
     if (options.model == "kanikama") settings.model = ShadingModel::kanikama;
+    if (options.model == "three") settings.model = ShadingModel::three;
     if (options.visibility == "reference" || options.model == "reference") settings.model = ShadingModel::reference;
     return settings;
 }
@@ -266,9 +267,9 @@ void add_light_options(CLI::App& command, PreviewOptions& options) {
         ->check(CLI::IsMember({"none", "baked", "stochastic", "reference"}));
     command
         .add_option("--model", options.model,
-                    "exact, kanikama (what its shader shows) or reference (brute force) [exact]")
+                    "exact, kanikama or three (what their shaders show), or reference (brute force) [exact]")
         ->type_name("MODEL")
-        ->check(CLI::IsMember({"exact", "kanikama", "reference"}));
+        ->check(CLI::IsMember({"exact", "kanikama", "three", "reference"}));
     command
         .add_option("--light-samples", options.light_samples,
                     "Rays of each sample of a pixel to each monitor, where light is sampled, 1 to 65536 [16]")

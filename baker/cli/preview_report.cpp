@@ -69,6 +69,7 @@ std::string explanation(const Lighting& lighting, const Picture& picture) {
         text += fmt::format("  map reads       {} ({:.1f} %)\n", counts.map_reads, share(counts.map_reads));
         text += fmt::format("  diffuse         {} ({:.1f} %)\n", counts.diffuse, share(counts.diffuse));
         text += fmt::format("  specular        {} ({:.1f} %)\n", counts.specular, share(counts.specular));
+        text += fmt::format("  second lobe     {} ({:.1f} %)\n", counts.schlick, share(counts.schlick));
         if (counts.not_finite > 0) text += fmt::format("  not finite      {}: left black\n", counts.not_finite);
     }
     return text;

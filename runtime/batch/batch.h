@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "runtime/base/math.h"
+#include "runtime/ltc/lobe.h"
 
 namespace surimi {
 
@@ -29,12 +30,12 @@ struct PointBatch {
     size_t size() const { return roughness.size(); }
 };
 
-/// The lobes at the points, which do not depend on the lights: place_lobe of each point.
+/// Lobes of one part of the BRDF at the points, which do not depend on the lights: place_lobe of each point.
 struct LobeBatch {
-    Vec3Batch tangent;                    ///< unit; the bitangent is cross(normal, tangent)
-    std::vector<double> xx, xz, zx, zz;   ///< inverse matrix of the lobe: row letter first, middle entry 1 (M24)
-    std::vector<double> share_above;      ///< PlacedLobe::share_above
-    std::vector<double> albedo, fresnel;  ///< 0 where the input was not finite
+    Vec3Batch tangent;                   ///< unit; the bitangent is cross(normal, tangent)
+    std::vector<double> xx, xz, zx, zz;  ///< inverse matrix of the lobe: row letter first, middle entry 1 (M24)
+    std::vector<double> share_above;     ///< PlacedLobe::share_above
+    std::vector<double> albedo;          ///< PlacedLobe::albedo; 0 where the input was not finite
 };
 
 /// Shares of one light, or sums over several: irradiance / pi, and share of the lobe; both in [0, 1] for one light.
@@ -52,7 +53,7 @@ enum class Precision { mixed, full };
 enum class Terms { diffuse, specular, both };
 
 /// place_lobe for every point. Resizes `lobes`.
-void place_lobes(const PointBatch& points, LobeBatch& lobes);
+void place_lobes(const PointBatch& points, LobeBatch& lobes, LobePart part = LobePart::full);
 
 /// Adds the shares of one planar convex polygon (three corners or more, counter-clockwise seen from the side that
 /// emits; with fewer nothing is added) to `shares`, whose arrays have the points' length. `is_wanted`, empty or one

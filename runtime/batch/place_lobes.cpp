@@ -22,19 +22,18 @@ constexpr size_t most_lanes = hn::MaxLanes(D64());
 
 /// Position, normal, view, roughness.
 using PointFields = std::array<const double*, 10>;
-/// Tangent, xx, xz, zx, zz, share_above, albedo, fresnel.
-using LobeFields = std::array<double*, 10>;
+/// Tangent, xx, xz, zx, zz, share_above, albedo.
+using LobeFields = std::array<double*, 9>;
 
 /// The six interpolated numbers of the table for each lane (M27). A cell's numbers lie side by side, so each lane reads
 /// four cells whole; gathering number by number would take 24 gathers.
-HWY_INLINE std::array<V64, 6> look_up(V64 column, V64 row) {
+HWY_INLINE std::array<V64, 6> look_up(const float* table, V64 column, V64 row) {
     const D64 d;
     const hn::CappedTag<double, ltc_cell_floats> wide;
     const hn::Rebind<float, decltype(wide)> narrow;
     HWY_ALIGN std::array<double, most_lanes> x, y;
     HWY_ALIGN std::array<std::array<double, most_lanes>, 6> numbers;
     HWY_ALIGN std::array<double, ltc_cell_floats> cell;
-    const float* table = ltc_cells();
     hn::Store(column, d, x.data());
     hn::Store(row, d, y.data());
     for (size_t lane = 0; lane < hn::Lanes(d); ++lane) {
@@ -85,7 +84,7 @@ HWY_INLINE Tangent tangent_of(V64 nx, V64 ny, V64 nz, V64 vx, V64 vy, V64 vz) {
     return {hn::Mul(x, inverse), hn::Mul(y, inverse), hn::Mul(z, inverse), cosine};
 }
 
-HWY_INLINE void place_block(const PointFields& in, const LobeFields& out) {
+HWY_INLINE void place_block(LobePart part, const PointFields& in, const LobeFields& out) {
     const D64 d;
     const V64 zero = hn::Zero(d), one = hn::Set(d, 1.0), half = hn::Set(d, 0.5);
     std::array<V64, 10> p;
@@ -101,7 +100,7 @@ HWY_INLINE void place_block(const PointFields& in, const LobeFields& out) {
     const V64 c = hn::IfThenElse(hn::And(is_sound, hn::Lt(tangent.cosine, one)),
                                  hn::Max(tangent.cosine, hn::Set(d, ltc_least_cosine)), one);
     const V64 last = hn::Set(d, double{ltc_size - 1});
-    const std::array<V64, 6> n = look_up(hn::Mul(u, last), hn::Mul(hn::Sqrt(hn::Sub(one, c)), last));
+    const std::array<V64, 6> n = look_up(ltc_cells(part), hn::Mul(u, last), hn::Mul(hn::Sqrt(hn::Sub(one, c)), last));
 
     // (M24): along the tangent (c, 0, s) of the mirror direction, and the mirror direction (-s, 0, c).
     const V64 alpha = hn::Max(hn::Set(d, ltc_least_alpha), hn::Mul(u, u)), width = hn::Add(alpha, alpha);
@@ -118,9 +117,10 @@ HWY_INLINE void place_block(const PointFields& in, const LobeFields& out) {
     const V64 over = hn::IfThenElse(is_forward, zx2, hn::Sub(length, xx));
     const V64 under = hn::IfThenElse(is_forward, hn::Mul(length, hn::Add(length, xx)), length);
     const V64 leak = hn::IfThenElseZero(hn::Gt(length, zero), hn::Div(hn::Mul(half, over), under));
-    const V64 root2 = hn::Mul(n[5], n[5]), albedo = hn::IfThenElseZero(is_sound, n[4]);
+    const V64 root2 = hn::Mul(n[5], n[5]), schlick = hn::Mul(hn::Mul(root2, root2), n[5]);
+    const V64 albedo = part == LobePart::full ? n[4] : hn::Mul(n[4], schlick);
 
-    const std::array<V64, 10> result = {
+    const std::array<V64, 9> result = {
         hn::IfThenElse(is_sound, tangent.x, one),
         hn::IfThenElseZero(is_sound, tangent.y),
         hn::IfThenElseZero(is_sound, tangent.z),
@@ -129,30 +129,31 @@ HWY_INLINE void place_block(const PointFields& in, const LobeFields& out) {
         zx,
         zz,
         hn::IfThenElse(is_sound, hn::Sub(one, leak), one),
-        albedo,
-        hn::Mul(albedo, hn::Mul(hn::Mul(root2, root2), n[5])),
+        hn::IfThenElseZero(is_sound, albedo),
     };
     for (size_t k = 0; k < result.size(); ++k) hn::StoreU(result[k], d, out[k]);
 }
 
-void place_all(const PointFields& in, const LobeFields& out, size_t count) {
+void place_all(LobePart part, const PointFields& in, const LobeFields& out, size_t count) {
     const size_t lanes = hn::Lanes(D64());
     PointFields from = in;
     LobeFields to = out;
     size_t i = 0;
     for (; i + lanes <= count; i += lanes) {
-        for (size_t k = 0; k < in.size(); ++k) from[k] = in[k] + i, to[k] = out[k] + i;
-        place_block(from, to);
+        for (size_t k = 0; k < in.size(); ++k) from[k] = in[k] + i;
+        for (size_t k = 0; k < out.size(); ++k) to[k] = out[k] + i;
+        place_block(part, from, to);
     }
     if (i == count) return;
     // The same kernel for the rest, the last point repeated.
-    std::array<std::array<double, most_lanes>, 10> inputs{}, outputs{};
+    std::array<std::array<double, most_lanes>, 10> inputs{};
+    std::array<std::array<double, most_lanes>, 9> outputs{};
     for (size_t k = 0; k < in.size(); ++k) {
         for (size_t lane = 0; lane < lanes; ++lane) inputs[k][lane] = in[k][std::min(i + lane, count - 1)];
         from[k] = inputs[k].data();
-        to[k] = outputs[k].data();
     }
-    place_block(from, to);
+    for (size_t k = 0; k < out.size(); ++k) to[k] = outputs[k].data();
+    place_block(part, from, to);
     for (size_t k = 0; k < out.size(); ++k) std::copy_n(outputs[k].begin(), count - i, out[k] + i);
 }
 
@@ -168,19 +169,20 @@ HWY_EXPORT(place_all);
 
 }  // namespace
 
-void place_lobes(const PointBatch& points, LobeBatch& lobes) {
+void place_lobes(const PointBatch& points, LobeBatch& lobes, LobePart part) {
     const size_t count = points.size();
     std::vector<double>&tx = lobes.tangent.x, &ty = lobes.tangent.y, &tz = lobes.tangent.z;
-    const std::array<std::vector<double>*, 10> out = {
-        &tx, &ty, &tz, &lobes.xx, &lobes.xz, &lobes.zx, &lobes.zz, &lobes.share_above, &lobes.albedo, &lobes.fresnel};
-    std::array<double*, 10> to{};
+    const std::array<std::vector<double>*, 9> out = {
+        &tx, &ty, &tz, &lobes.xx, &lobes.xz, &lobes.zx, &lobes.zz, &lobes.share_above, &lobes.albedo};
+    std::array<double*, 9> to{};
     for (size_t k = 0; k < out.size(); ++k) {
         out[k]->resize(count);
         to[k] = out[k]->data();
     }
     const Vec3Batch &p = points.position, &n = points.normal, &v = points.view;
     HWY_DYNAMIC_DISPATCH(place_all)
-    ({p.x.data(), p.y.data(), p.z.data(), n.x.data(), n.y.data(), n.z.data(), v.x.data(), v.y.data(), v.z.data(),
+    (part,
+     {p.x.data(), p.y.data(), p.z.data(), n.x.data(), n.y.data(), n.z.data(), v.x.data(), v.y.data(), v.z.data(),
       points.roughness.data()},
      to, count);
 }

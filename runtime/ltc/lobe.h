@@ -6,6 +6,10 @@
 
 namespace surimi {
 
+/// GGX with Schlick's reflectance is F0 times one lobe plus 1 - F0 times another (M30): `full` stands for GGX with
+/// reflectance 1, `schlick` for GGX times (1 - V.H)^5, which lies elsewhere, at grazing half vectors.
+enum class LobePart { full, schlick };
+
 /// The four free numbers of a lobe, in the frame of the mirror direction and in units of the width that GGX has there
 /// (M24). All are of order 1; (1, 0, 0, 1) is the limit of small roughness.
 struct LobeShape {

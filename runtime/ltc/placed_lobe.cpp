@@ -65,15 +65,15 @@ Mat3 frame_of_view(const Vec3& normal, const Vec3& view) {
     return {tangent, glm::cross(n, tangent), n};
 }
 
-PlacedLobe place_lobe(const Vec3& normal, const Vec3& view, double roughness) {
+PlacedLobe place_lobe(const Vec3& normal, const Vec3& view, double roughness, LobePart part) {
     if (!is_finite(normal) || !is_finite(view) || !std::isfinite(roughness)) return flagged(PlacedLobe{});
     const Vec3 n = normalize_or(normal, Vec3(0)), v = normalize_or(view, Vec3(0));
     if (n == Vec3(0) || v == Vec3(0)) return {};
     const Mat3 frame = frame_of_view(n, v);
     // Next to the normal the angle is lost in the rounding of its cosine, 1e-8 rad; the sine knows it.
     const double sine = glm::dot(frame[0], v), cosine = glm::dot(n, v);
-    const LtcLobe lobe = ltc_lobe(roughness, cosine > 0.9 ? std::sqrt(1 - sine * sine) : cosine);
-    return {lobe.inverse * glm::transpose(frame), n, 1 - lobe.leak, lobe.albedo, lobe.fresnel};
+    const LtcLobe lobe = ltc_lobe(roughness, cosine > 0.9 ? std::sqrt(1 - sine * sine) : cosine, part);
+    return {lobe.inverse * glm::transpose(frame), n, 1 - lobe.leak, lobe.albedo};
 }
 
 double specular_share_of_polygon(const PlacedLobe& lobe, std::span<const Vec3> corners, const Vec3& point,

@@ -6,6 +6,7 @@
 
 #include "runtime/ltc/cylinder.h"
 #include "runtime/ltc/ellipse.h"
+#include "runtime/ltc/lobe.h"
 
 namespace surimi {
 
@@ -16,8 +17,7 @@ struct PlacedLobe {
     Mat3 to_cosine{1};       ///< from world directions to the cosine's space
     Vec3 normal{0, 0, 1};    ///< unit; of the true horizon
     double share_above = 1;  ///< of the lobe, above the true horizon, in (0, 1]
-    double albedo = 0;       ///< specular albedo = F0 * albedo + (1 - F0) * fresnel, see LtcLobe
-    double fresnel = 0;
+    double albedo = 0;       ///< of this part of the BRDF: specular albedo = F0 * full + (1 - F0) * schlick (M30)
 };
 
 /// The orthonormal, right-handed frame (columns tangent, bitangent, normal) whose tangent is on the view's side of the
@@ -27,9 +27,10 @@ Mat3 frame_of_view(const Vec3& normal, const Vec3& view);
 
 /// The lobe for a unit normal, a unit direction to the eye and a perceptual roughness in [0, 1]. A view along the
 /// normal leaves the tangent open, and the lobe is round there; a view at or below the horizon, as interpolated
-/// normals give, counts as the least angle above it in the same plane. A normal or view without length gives a lobe of
-/// albedo 0; so does input that is not finite, and raises FE_INVALID.
-PlacedLobe place_lobe(const Vec3& normal, const Vec3& view, double roughness);
+/// normals give, counts as the least angle above it in the same plane. Light reflected from a monitor of radiance L is
+/// L (F0 a s + (1 - F0) a' s') with albedo and share of the full and of the schlick part. A normal or view without
+/// length gives a lobe of albedo 0; so does input that is not finite, and raises FE_INVALID.
+PlacedLobe place_lobe(const Vec3& normal, const Vec3& view, double roughness, LobePart part = LobePart::full);
 
 /// Share of the lobe that a light fills, in [0, 1], as seen from `point` (M17); times the specular albedo and the
 /// light's radiance it is the radiance reflected to the eye. The rules of irradiance_of_... hold: which side emits,

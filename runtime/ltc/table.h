@@ -16,7 +16,7 @@ inline constexpr double ltc_least_cosine = 1e-4;
 
 /// What a cell stores, all interpolated linearly (M27).
 struct LtcCell {
-    LobeShape shape;
+    LobeShape full, schlick;  ///< of the two parts
     double albedo = 1;        ///< `GgxAlbedo::full`
     double fresnel_root = 0;  ///< fifth root of `GgxAlbedo::fresnel / full`; a mirror has 1 - N.V
 };
@@ -27,21 +27,22 @@ double ltc_row_cosine(int row);
 /// A stored cell; both indices in [0, ltc_size).
 LtcCell ltc_cell(int column, int row);
 
-/// Floats from one cell to the next in `ltc_cells`: six numbers in LtcCell's order, and two of padding.
+/// Floats from one cell to the next in `ltc_cells`: the four numbers of the part's shape, albedo, fresnel_root, and two
+/// of padding.
 inline constexpr size_t ltc_cell_floats = 8;
-/// All ltc_size x ltc_size stored cells, row by row, on a boundary of 64 bytes, for lookups in SIMD.
-const float* ltc_cells();
+/// All ltc_size x ltc_size stored cells of one part, row by row, on a boundary of 64 bytes, for lookups in SIMD.
+const float* ltc_cells(LobePart part);
 
-/// Everything shading needs of the BRDF.
+/// Everything shading needs of one part of the BRDF.
 struct LtcLobe {
-    Mat3 inverse;    ///< to the cosine's space, from (tangent of the view's plane, bitangent, normal); middle entry 1
-    double albedo;   ///< specular albedo = F0 * albedo + (1 - F0) * fresnel
-    double fresnel;  ///< Schlick's term, see `GgxAlbedo`
-    double leak;     ///< fraction of the lobe below the true horizon: what is cut there, divide the rest by 1 - leak
+    Mat3 inverse;   ///< to the cosine's space, from (tangent of the view's plane, bitangent, normal); middle entry 1
+    double albedo;  ///< of this part, as in GgxAlbedo; specular albedo = F0 * full + (1 - F0) * schlick (M30)
+    double leak;    ///< fraction of the lobe below the true horizon: what is cut there, divide the rest by 1 - leak
 };
 
 /// The lobe at a perceptual roughness and N.V, both clamped to [0, 1]. Not a number counts as roughness 0 and N.V 1,
-/// the first cell; the result is always finite and its matrix regular. Input that is not finite raises FE_INVALID.
-LtcLobe ltc_lobe(double roughness, double cosine);
+/// the first cell; the result is always finite, and the matrix of the full part regular (where the other's albedo
+/// vanishes, its lobe is not determined). Input that is not finite raises FE_INVALID.
+LtcLobe ltc_lobe(double roughness, double cosine, LobePart part = LobePart::full);
 
 }  // namespace surimi

@@ -20,8 +20,9 @@ Brdf brdf_at(const ShadingPoint& point) {
     brdf.view = {std::sqrt((1 - cosine) * (1 + cosine)), 0, cosine};
     brdf.alpha = std::max(ltc_least_alpha, point.roughness * point.roughness);
     brdf.f0 = point.f0;
-    const LtcLobe lobe = ltc_lobe(point.roughness, cosine);
-    const Vec3 taken = specular_albedo(point.f0, lobe.albedo, lobe.fresnel);
+    const double full = ltc_lobe(point.roughness, cosine, LobePart::full).albedo;
+    const double schlick = ltc_lobe(point.roughness, cosine, LobePart::schlick).albedo;
+    const Vec3 taken = specular_albedo(point.f0, full, schlick);
     brdf.diffuse_albedo = point.diffuse_albedo * (1.0 - taken);
     const double specular = luminance(taken), diffuse = luminance(brdf.diffuse_albedo);
     // Neither technique is left out where its part exists: the other one would be noise there.

@@ -7,9 +7,9 @@
 namespace surimi {
 
 /// Share of white light from everywhere that the GGX part sends to the eye (M30), for each colour in [0, 1].
-/// `albedo` and `fresnel` are those of LtcLobe or PlacedLobe.
-inline Vec3 specular_albedo(const Vec3& f0, double albedo, double fresnel) {
-    return f0 * albedo + (1.0 - f0) * fresnel;
+/// The albedos are those of the two parts' lobes.
+inline Vec3 specular_albedo(const Vec3& f0, double full, double schlick) {
+    return f0 * full + (1.0 - f0) * schlick;
 }
 
 /// What the Lambert and the GGX part reflect; of reflectances or of radiance.

@@ -40,6 +40,7 @@ MonitorCounts& MonitorCounts::operator+=(const MonitorCounts& other) {
     dark += other.dark;
     diffuse += other.diffuse;
     specular += other.specular;
+    schlick += other.schlick;
     map_reads += other.map_reads;
     not_finite += other.not_finite;
     return *this;

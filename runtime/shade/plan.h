@@ -33,7 +33,8 @@ struct MonitorCounts {
     size_t unseen = 0;      ///< the monitor's own, behind it, below its horizon, or the monitor is off
     size_t dark = 0;        ///< the map says 0
     size_t diffuse = 0;     ///< Lambert integrals
-    size_t specular = 0;    ///< lobe integrals
+    size_t specular = 0;    ///< integrals of the full lobe
+    size_t schlick = 0;     ///< integrals of Schlick's lobe, where it is not negligible
     size_t map_reads = 0;   ///< V that came from the map
     size_t not_finite = 0;  ///< points that got 0 because something about them was not finite
     MonitorCounts& operator+=(const MonitorCounts& other);

@@ -23,8 +23,9 @@ enum class VisibilitySource {
 
 /// How the shares of a monitor's light are computed.
 enum class ShadingModel {
-    exact,      ///< closed forms, cut at the horizons, lobes and diffuse coupled (M30)
-    kanikama,   ///< as Kanikama's shader does: clipless, horizon by a sphere's table, parts not coupled
+    exact,      ///< closed forms, cut at the horizons, both lobes, coupled to the diffuse part (M30)
+    kanikama,   ///< as Kanikama's shader: clipless, horizon by a table of spheres, one lobe, nothing coupled
+    three,      ///< as three.js' RectAreaLight: clipless, horizon by a rational fraction, one lobe, nothing coupled
     reference,  ///< brute force (M31), from as many samples as the stochastic source
 };
 

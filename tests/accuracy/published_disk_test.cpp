@@ -14,9 +14,9 @@
 namespace surimi {
 namespace {
 
+using published::Proxy;
 using test::AxesBy;
 using test::DiskCase;
-using test::Proxy;
 
 template <class T>
 Ellipse<T> as(const Ellipse<double>& e) {

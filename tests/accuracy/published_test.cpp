@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The published polygon lights and ours, on the same input: where theirs fail (research/ltc.md, 1.3 and 2), ours must
 // not. The printed tables hold worst errors of the form factor, and medians of the relative error.
-#include "tests/support/published.h"
+#include "runtime/shade/published.h"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 namespace surimi {
 namespace {
 
-using test::Proxy;
+using published::Proxy;
 using namespace hazard;
 
 template <class T>
@@ -63,10 +63,10 @@ struct Row {
         const double expected = exact(light, normal) / pi;
         const Quad<float> f = in_frame<float>(light, normal);
         const Quad<double> d = in_frame<double>(light, normal);
-        exact_clip.add(test::published_polygon<float>(f, true), expected);
-        exact_clip_in_double.add(test::published_polygon<double>(d, true), expected);
-        table.add(test::clipless_polygon<float>(f, Proxy::table, true), expected);
-        fraction.add(test::clipless_polygon<float>(f, Proxy::fraction, true), expected);
+        exact_clip.add(published::clipped_polygon<float>(f, true), expected);
+        exact_clip_in_double.add(published::clipped_polygon<double>(d, true), expected);
+        table.add(published::clipless_polygon<float>(f, Proxy::table, true), expected);
+        fraction.add(published::clipless_polygon<float>(f, Proxy::fraction, true), expected);
         ours_in_float.add(irradiance_of_polygon<float>(f, Vec3f(0), {0, 0, 1}, true) / pi, expected);
         ours.add(of(light, normal) / pi, expected);
     }
@@ -169,7 +169,7 @@ TEST(PublishedPolygon, FloatLosesLightsAcrossTheHorizonOfSmoothLobes_M4) {  // H
 TEST(PublishedLobe, SmoothLobesAreTooWideBetweenNodes_M24) {  // H13: of entries, not of numbers of a lobe
     for (const auto& [roughness, factor] : {std::pair{0.5 / 63, 2.08}, {1.5 / 63, 1.11}}) {
         const double width = 2 * roughness * roughness;
-        const float published = test::published_lobe(static_cast<float>(roughness), 1).inverse[2].z;
+        const float published = published::lobe_at(static_cast<float>(roughness), 1).inverse[2].z;
         const double ours = ltc_lobe(roughness, 1).inverse[2].z;
         EXPECT_NEAR(static_cast<double>(published) / width, factor, 0.01);
         EXPECT_NEAR(ours / width, 1, 5e-3);
@@ -196,7 +196,7 @@ ProxyErrors proxy_errors(double size) {
         const double expected = of(light, {0, 0, 1}) / pi;
         auto& errors = above == 4 ? worst.above : worst.crossing;
         for (const Proxy proxy : {Proxy::sphere, Proxy::table, Proxy::fraction}) {
-            const double e = test::clipless_polygon<double>(light, proxy, true);
+            const double e = published::clipless_polygon<double>(light, proxy, true);
             double& error = errors[static_cast<size_t>(proxy)];
             error = std::max(error, std::abs(e - expected));
         }
@@ -232,8 +232,8 @@ TEST(PublishedProxies, SphereIsTheConeOfEqualFormFactor_M11) {
         EllipticCone<double> cone;
         cone.a = cone.b = std::sqrt(length / (1 - length));
         const double expected = irradiance_of_cone(cone, Vec3(std::sqrt(1 - z * z), 0, z)) / pi;
-        EXPECT_NEAR(test::clipped_sphere(length, z), expected, 1e-13) << length << ' ' << z;
-        table = std::max(table, std::abs(test::at_horizon(length, z, Proxy::table) - expected));
+        EXPECT_NEAR(published::clipped_sphere(length, z), expected, 1e-13) << length << ' ' << z;
+        table = std::max(table, std::abs(published::at_horizon(length, z, Proxy::table) - expected));
     }
     EXPECT_NEAR(table, 0.020, 0.002);  // the table's own error, next to half spaces
 }
@@ -243,7 +243,7 @@ TEST(PublishedPolygon, AgreesWhereNothingIsHard_M1) {
     for (int i = 0; i < 10'000; ++i) {
         const Corners light = parallelogram(2.0 * choice.direction(), choice.direction(), choice.direction());
         const Quad<double> quad = in_frame<double>(light, {0, 0, 1});
-        EXPECT_NEAR(test::published_polygon<double>(quad), of(light, {0, 0, 1}, false) / pi, 5e-7);
+        EXPECT_NEAR(published::clipped_polygon<double>(quad), of(light, {0, 0, 1}, false) / pi, 5e-7);
     }
 }
 
@@ -261,14 +261,14 @@ TEST(PublishedQuad, IsOursInOneLookup_M24) {
         for (const Vec3& corner : light) in_lobe.push_back(lobe.inverse * (glm::transpose(frame) * (corner - point)));
         const Quad<float> corners = {Vec3f(light[0]), Vec3f(light[1]), Vec3f(light[2]), Vec3f(light[3])};
         const float roughness = 40.0F / 63;
-        const test::Shares s =
-            test::published_quad(corners.data(), Vec3f(point), Vec3f(normal), Vec3f(view), roughness);
+        const published::Shares s =
+            published::clipped_quad(corners.data(), Vec3f(point), Vec3f(normal), Vec3f(view), roughness);
         EXPECT_NEAR(s.diffuse, irradiance_of_polygon<double>(light, point, normal) / pi, 3e-6) << i;
         EXPECT_NEAR(s.specular, of(in_lobe, {0, 0, 1}, false) / pi, 1e-5) << i;
         EXPECT_NEAR(s.albedo, lobe.albedo, 1e-6);
-        EXPECT_NEAR(s.fresnel, lobe.fresnel, 1e-6);
-        const test::Shares t =
-            test::clipless_quad(corners.data(), Vec3f(point), Vec3f(normal), Vec3f(view), roughness, Proxy::sphere);
+        EXPECT_NEAR(s.fresnel, ltc_lobe(40.0 / 63, cosine, LobePart::schlick).albedo, 1e-6);
+        const published::Shares t = published::clipless_quad(corners.data(), Vec3f(point), Vec3f(normal), Vec3f(view),
+                                                             roughness, Proxy::sphere);
         EXPECT_NEAR(t.diffuse, s.diffuse, 0.1) << i;
         EXPECT_NEAR(t.specular, s.specular, 0.1) << i;
     }

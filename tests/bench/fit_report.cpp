@@ -21,7 +21,7 @@ Grid our_total_variation() {
         for (size_t j = 0; j < 8; ++j) {
             const int column = test::compared_columns[j], row = test::compared_rows[i];
             const FitCell cell(ltc_column_alpha(column), ltc_row_cosine(row), {});
-            grid[i][j] = cell.error(ltc_cell(column, row).shape).total_variation;
+            grid[i][j] = cell.error(ltc_cell(column, row).full).total_variation;
         }
     return grid;
 }

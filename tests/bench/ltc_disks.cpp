@@ -32,7 +32,7 @@ Ellipse<T> as(const Ellipse<double>& e) {
 template <class T, AxesBy by>
 void published(const std::vector<Ellipse<double>>& ellipses, std::vector<double>& values) {
     for (size_t i = 0; i < ellipses.size(); ++i)
-        values[i] = static_cast<double>(test::published_disk(as<T>(ellipses[i]), by, test::Proxy::table, true));
+        values[i] = static_cast<double>(test::published_disk(as<T>(ellipses[i]), by, published::Proxy::table, true));
 }
 
 template <class T>

@@ -12,7 +12,7 @@
 #include "runtime/batch/batch.h"
 #include "runtime/ltc/polygon.h"
 #include "runtime/ltc/table.h"
-#include "tests/support/published.h"
+#include "runtime/shade/published.h"
 #include "tests/support/quadrature.h"
 #include "tests/support/random.h"
 #include "tests/support/shading_cases.h"
@@ -76,20 +76,20 @@ void shade_one_by_one(const Scene& scene, const Corners& corners, ShareBatch& sh
     }
 }
 
-void shade_published(const Scene& scene, const Corners& corners, const test::Proxy* proxy, ShareBatch& shares) {
+void shade_published(const Scene& scene, const Corners& corners, const published::Proxy* proxy, ShareBatch& shares) {
     const Vec3f quad[4] = {Vec3f(corners[0]), Vec3f(corners[1]), Vec3f(corners[2]), Vec3f(corners[3])};
     for (size_t i = 0; i < scene.roughness.size(); ++i) {
         const Vec3f &p = scene.position[i], &n = scene.normal[i], &v = scene.view[i];
-        const test::Shares s = proxy ? test::clipless_quad(quad, p, n, v, scene.roughness[i], *proxy)
-                                     : test::published_quad(quad, p, n, v, scene.roughness[i]);
+        const published::Shares s = proxy ? published::clipless_quad(quad, p, n, v, scene.roughness[i], *proxy)
+                                          : published::clipped_quad(quad, p, n, v, scene.roughness[i]);
         shares.diffuse[i] += static_cast<double>(s.diffuse);
         shares.specular[i] += static_cast<double>(s.specular);
     }
 }
 
 std::vector<Method> methods() {
-    static constexpr test::Proxy table = test::Proxy::table, fraction = test::Proxy::fraction;
-    const auto published = [](const test::Proxy* proxy) {
+    static constexpr published::Proxy table = published::Proxy::table, fraction = published::Proxy::fraction;
+    const auto published = [](const published::Proxy* proxy) {
         return [proxy](const Scene& s, const Corners& c, ShareBatch& out) { shade_published(s, c, proxy, out); };
     };
     std::vector<Method> all = {
@@ -166,7 +166,7 @@ double exact_published_specular(const Corners& corners, const Vec3& p, const Vec
     using test::Vec3l;
     const Vec3l z(n), x = glm::normalize(Vec3l(v) - z * glm::dot(z, Vec3l(v))), y = glm::cross(z, x);
     const float cosine = static_cast<float>(std::clamp(glm::dot(n, v), 0.0, 1.0));
-    const glm::mat<3, 3, test::Real> inverse(test::published_lobe(static_cast<float>(roughness), cosine).inverse);
+    const glm::mat<3, 3, test::Real> inverse(published::lobe_at(static_cast<float>(roughness), cosine).inverse);
     std::vector<Vec3l> seen;
     for (const Vec3& corner : corners) {
         const Vec3l w = Vec3l(corner) - Vec3l(p);

@@ -137,6 +137,30 @@ expect 0 "RMSE           0" "$surimi" compare "$work/lit.png" "$work/lit.png" --
 expect 2 "must be a .png" "$surimi" compare "$work/lit.png" "$work/lit.png" -o "$work/heat.exr"
 expect 3 "missing.png" "$surimi" compare "$work/missing.png" "$work/lit.png"
 
+# Light without a new bake, other models, explanations, and the comparison with brute force
+baked=$work/out/home-theater.baked.glb
+"$surimi" preview "$baked" -o "$work/red.exr" --light Monitor_R=1,0,0 --exposure 0 --size 32 18 --samples 1 --quiet >/dev/null
+"$surimi" preview "$baked" -o "$work/green.exr" --light Monitor_R=0,1,0 --exposure 0 --size 32 18 --samples 1 --quiet >/dev/null
+if cmp -s "$work/red.exr" "$work/green.exr"; then fail "--light changes nothing"; fi
+expect 0 "" "$surimi" preview "$baked" -o "$work/off.png" --light Monitor_R=0 --size 32 18 --samples 1
+expect 2 "no monitor is called" "$surimi" preview "$baked" -o "$work/x.png" --light Nobody=1
+expect 2 "is not a number" "$surimi" preview "$baked" -o "$work/x.png" --light Monitor_R=1,blue,0
+expect 0 "" "$surimi" preview "$baked" -o "$work/picture.png" --picture "Monitor_R=$work/lit.png" --size 32 18 --samples 1
+expect 3 "missing.png" "$surimi" preview "$baked" -o "$work/x.png" --picture "Monitor_R=$work/missing.png" --size 32 18
+for model in exact kanikama three reference; do
+    expect 0 "$model.png" "$surimi" preview "$baked" -o "$work/$model.png" --model $model --light-samples 2 --size 32 18 --samples 1
+done
+for source in none baked stochastic reference; do
+    expect 0 "$source.png" "$surimi" preview "$baked" -o "$work/$source.png" --visibility $source --light-samples 2 --size 32 18 --samples 1
+done
+expect 0 "map reads" "$surimi" preview "$baked" -o "$work/explained.png" --explain --size 32 18 --samples 1
+expect 0 "whole picture" "$surimi" preview "$baked" -o "$work/compared.png" --compare --reference-samples 4 --progressive --size 32 18 --samples 2
+for name in compared.png compared.reference.png compared.difference.png; do
+    check test -s "$work/$name"
+done
+expect 0 '"referenceNoise"' "$surimi" preview "$baked" -o "$work/compared.png" --compare --json --reference-samples 2 --size 32 18 --samples 1
+expect 2 "--compare is for" "$surimi" preview "$baked" -o "$work/x.png" --compare --show diffuse
+
 # 130: Ctrl-C leaves nothing behind
 "$surimi" bake "$theater" --size 2048 --samples 4096 -o "$work/interrupted" --quiet 2>"$work/stderr" &
 sleep 3

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "runtime/ltc/ellipse.h"
-#include "tests/support/published.h"
+#include "runtime/shade/published.h"
 
 namespace surimi::test {
 
@@ -107,10 +107,10 @@ VectorFormFactor<T> published_disk_vector(const Ellipse<T>& ellipse, AxesBy by) 
 
 /// Form factor of an ellipse in the cosine's space: that vector, then the proxy at the horizon.
 template <class T>
-T published_disk(const Ellipse<T>& ellipse, AxesBy by, Proxy proxy, bool two_sided = false) {
+T published_disk(const Ellipse<T>& ellipse, AxesBy by, published::Proxy proxy, bool two_sided = false) {
     if (!two_sided && glm::dot(glm::cross(ellipse.half_u, ellipse.half_v), ellipse.centre) >= 0) return 0;
     const VectorFormFactor<T> vector = published_disk_vector(ellipse, by);
-    return at_horizon(vector.length, vector.axis.z, proxy);
+    return published::at_horizon(vector.length, vector.axis.z, proxy);
 }
 
 }  // namespace surimi::test

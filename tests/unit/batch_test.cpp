@@ -134,7 +134,6 @@ TEST_P(Batch, WhatIsNotFiniteGivesNothingAndIsCounted) {
                     LobeBatch lobes;
                     place_lobes(points, lobes);
                     EXPECT_EQ(lobes.albedo[at], 0);
-                    EXPECT_EQ(lobes.fresnel[at], 0);
                     EXPECT_EQ(lobes.share_above[at], 1);
                     EXPECT_GT(lobes.xx[at] * lobes.zz[at] - lobes.xz[at] * lobes.zx[at], 0);
                     EXPECT_TRUE(is_finite(lobes.tangent[at]));

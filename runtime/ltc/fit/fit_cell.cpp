@@ -43,18 +43,21 @@ struct Bands {
 
 }  // namespace
 
-FitCell::FitCell(double alpha, double cosine, const FitSettings& settings)
+FitCell::FitCell(double alpha, double cosine, const FitSettings& settings, LobePart part)
     : albedo(ggx_albedo(alpha, cosine)), alpha_(alpha), cosine_(cosine), settings_(settings) {
     const Vec3 view(std::sqrt((1 - cosine) * (1 + cosine)), 0, cosine);
     const Bands bands{std::hypot(cosine, alpha * view.x)};
     // Two quadratures, each weighted with its share of the sum of both densities.
+    const double total = part == LobePart::full ? albedo.full : albedo.fresnel;
     const auto add = [&](const Vec3& light, double value, double weight) {
+        if (part == LobePart::schlick)
+            value *= std::pow(std::max(0.0, 1 - glm::dot(view, normalize_or(view + light, {0, 0, 1}))), 5);
         x_.push_back(light.x);
         y_.push_back(light.y);
         z_.push_back(light.z);
-        value_.push_back(value / albedo.full);
+        value_.push_back(value / total);
         weight_.push_back(weight);
-        norm_ += weight * std::pow(value / albedo.full, 1.5);
+        norm_ += weight * std::pow(value / total, 1.5);
     };
     for (const GgxNode& node : ggx_nodes(alpha, cosine, settings.around, settings.along)) {
         const double own = ggx_density(alpha, view, node.light), other = bands.density(node.light);
@@ -99,7 +102,9 @@ FitError FitCell::error(const Mat3& m) const {
 LobeShape FitCell::fit(const LobeShape& start, const LobeShape& neighbour) const {
     if (cosine_ == 1) {
         const auto f = [&](const std::array<double, 1>& n) {
-            return objective(inverse_matrix({1, 0, 0, n[0]}, alpha_, cosine_));
+            const double distance = n[0] - neighbour.depth;
+            return objective(inverse_matrix({1, 0, 0, n[0]}, alpha_, cosine_)) +
+                   settings_.stiffness * distance * distance;
         };
         std::array<double, 1> best{start.depth};
         for (int i = 0; i < settings_.restarts; ++i) best = minimize<1>(f, best, settings_.step, 1e-12, 200).at;

@@ -23,10 +23,10 @@ struct FitError {
     double total_variation;  ///< half the integral of |difference|: bounds the error of every light's shape
 };
 
-/// BRDF of one cell, normalised to integral 1, on the nodes of a quadrature.
+/// One part of the BRDF of one cell, normalised to integral 1, on the nodes of a quadrature.
 class FitCell {
   public:
-    FitCell(double alpha, double cosine, const FitSettings& settings);
+    FitCell(double alpha, double cosine, const FitSettings& settings, LobePart part = LobePart::full);
 
     /// Error of the lobe as it is shown: cut at the true horizon and normalised again (M26). Infinite for a singular or
     /// mirrored matrix.

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/support/published.h"
+#include "runtime/shade/published.h"
 
 #include <vector>
 
 #include "runtime/ltc/table.h"
 
-namespace surimi::test {
+namespace surimi::published {
 
 namespace {
 
@@ -43,7 +43,7 @@ Textures make_textures() {
     for (int row = 0; row < size; ++row)
         for (int column = 0; column < size; ++column) {
             const LtcCell cell = ltc_cell(column, row);
-            const Mat3 m = inverse_matrix(cell.shape, ltc_column_alpha(column), ltc_row_cosine(row));
+            const Mat3 m = inverse_matrix(cell.full, ltc_column_alpha(column), ltc_row_cosine(row));
             textures.entries.emplace_back(m[0].x, m[0].z, m[2].x, m[2].z);
             textures.albedos.emplace_back(cell.albedo, cell.albedo * std::pow(cell.fresnel_root, 5));
             const double length = row / (size - 1.0), cosine = 2 * (column / (size - 1.0)) - 1;
@@ -56,7 +56,7 @@ Textures make_textures() {
 const Textures textures = make_textures();
 
 struct Placed {
-    PublishedLobe lobe;
+    TabledLobe lobe;
     std::array<Vec3f, 4> in_frame, in_lobe;
 };
 
@@ -64,7 +64,7 @@ Placed place(const Vec3f corners[4], Vec3f point, Vec3f normal, Vec3f view, floa
     Placed placed;
     const float cosine = glm::dot(normal, view);
     const Vec3f tangent = glm::normalize(view - normal * cosine), bitangent = glm::cross(normal, tangent);
-    placed.lobe = published_lobe(roughness, std::clamp(cosine, 0.0F, 1.0F));
+    placed.lobe = lobe_at(roughness, std::clamp(cosine, 0.0F, 1.0F));
     for (size_t i = 0; i < 4; ++i) {
         const Vec3f d = corners[i] - point;
         placed.in_frame[i] = {glm::dot(tangent, d), glm::dot(bitangent, d), glm::dot(normal, d)};
@@ -79,16 +79,16 @@ float tabled_sphere_ratio(float length, float cosine) {
     return Bilinear(cosine * 0.5F + 0.5F, length)(textures.sphere);
 }
 
-PublishedLobe published_lobe(float roughness, float cosine) {
+TabledLobe lobe_at(float roughness, float cosine) {
     const Bilinear between(roughness, std::sqrt(1 - cosine));
     const Vec4f m = between(textures.entries);
     const Vec2f albedo = between(textures.albedos);
     return {glm::mat3(m.x, 0, m.y, 0, 1, 0, m.z, 0, m.w), albedo.x, albedo.y};
 }
 
-Shares published_quad(const Vec3f corners[4], Vec3f point, Vec3f normal, Vec3f view, float roughness) {
+Shares clipped_quad(const Vec3f corners[4], Vec3f point, Vec3f normal, Vec3f view, float roughness) {
     const Placed placed = place(corners, point, normal, view, roughness);
-    return {published_polygon<float>(placed.in_frame), published_polygon<float>(placed.in_lobe), placed.lobe.albedo,
+    return {clipped_polygon<float>(placed.in_frame), clipped_polygon<float>(placed.in_lobe), placed.lobe.albedo,
             placed.lobe.fresnel};
 }
 
@@ -98,4 +98,4 @@ Shares clipless_quad(const Vec3f corners[4], Vec3f point, Vec3f normal, Vec3f vi
             placed.lobe.albedo, placed.lobe.fresnel};
 }
 
-}  // namespace surimi::test
+}  // namespace surimi::published

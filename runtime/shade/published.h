@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The published ways to shade with area lights, written anew from their formulae, to be measured against. Not for use:
-// the tests show where they fail. Everything in a cosine's space has the point at the origin and the normal along z.
+// The published ways to shade with area lights, written anew from their formulae: to show what other programs show, and
+// to be measured against. The tests show where they fail. Everything in a cosine's space has the point at the origin
+// and the normal along z.
 #pragma once
 
 #include <algorithm>
@@ -11,12 +12,12 @@
 
 #include "runtime/base/math.h"
 
-namespace surimi::test {
+namespace surimi::published {
 
 /// angle / (2 pi sin(angle)) of the angle whose cosine is x, by the rational fit of Hill and Heitz 2017, relative error
 /// 1.4e-6; with the bound on sin^2 that nearly opposite directions run into.
 template <class T>
-T published_edge_weight(T x) {
+T edge_weight(T x) {
     const T y = std::abs(x);
     const T above = T(0.8543985) + (T(0.4965155) + T(0.0145206) * y) * y;
     const T below = T(3.4175940) + (T(4.1616724) + y) * y;
@@ -26,16 +27,16 @@ T published_edge_weight(T x) {
 
 /// One edge's share of the vector form factor; both ends on the unit sphere.
 template <class T>
-glm::vec<3, T> published_edge(const glm::vec<3, T>& a, const glm::vec<3, T>& b) {
-    return glm::cross(a, b) * published_edge_weight(glm::dot(a, b));
+glm::vec<3, T> edge_share(const glm::vec<3, T>& a, const glm::vec<3, T>& b) {
+    return glm::cross(a, b) * edge_weight(glm::dot(a, b));
 }
 
 /// Vector form factor of the polygon with these corners, any length each, by its edges.
 template <class V, class... Rest>
-V published_sum(const V& first, const Rest&... rest) {
+V vector_form_factor(const V& first, const Rest&... rest) {
     const std::array<V, sizeof...(Rest) + 1> p = {glm::normalize(first), glm::normalize(rest)...};
-    V sum = published_edge(p.back(), p.front());
-    for (size_t i = 1; i < p.size(); ++i) sum += published_edge(p[i - 1], p[i]);
+    V sum = edge_share(p.back(), p.front());
+    for (size_t i = 1; i < p.size(); ++i) sum += edge_share(p[i - 1], p[i]);
     return sum;
 }
 
@@ -48,7 +49,7 @@ inline constexpr std::array<unsigned, 16> count_above = {0, 1, 1, 2, 1, 0, 2, 3,
 /// Dupuy, Hill and Neubelt 2016 and most renderers compute it: clipped at z = 0 by cases with crossings that are not
 /// divided, corners scaled to length 1, Lambert's sum with the fit. 0 to 1 where it works; NaN for a corner at 0.
 template <class T>
-T published_polygon(std::span<const glm::vec<3, T>> corners_in_cosine_space, bool two_sided = false) {
+T clipped_polygon(std::span<const glm::vec<3, T>> corners_in_cosine_space, bool two_sided = false) {
     using V = glm::vec<3, T>;
     assert(corners_in_cosine_space.size() == 4);
     const V* corners = corners_in_cosine_space.data();
@@ -61,16 +62,16 @@ T published_polygon(std::span<const glm::vec<3, T>> corners_in_cosine_space, boo
     T sum = 0;
     switch (count_above[bits]) {
         case 1:
-            sum = published_sum(a, crossing(a, b), crossing(a, d)).z;
+            sum = vector_form_factor(a, crossing(a, b), crossing(a, d)).z;
             break;
         case 2:
-            sum = published_sum(a, b, crossing(b, c), crossing(a, d)).z;
+            sum = vector_form_factor(a, b, crossing(b, c), crossing(a, d)).z;
             break;
         case 3:
-            sum = published_sum(a, b, c, crossing(c, d), crossing(a, d)).z;
+            sum = vector_form_factor(a, b, c, crossing(c, d), crossing(a, d)).z;
             break;
         case 4:
-            sum = published_sum(a, b, c, d).z;
+            sum = vector_form_factor(a, b, c, d).z;
             break;
         default:
             break;
@@ -122,7 +123,7 @@ T clipless_polygon(std::span<const glm::vec<3, T>> corners_in_cosine_space, Prox
     const V* corners = corners_in_cosine_space.data();
     const bool is_behind = glm::dot(glm::cross(corners[1] - corners[0], corners[3] - corners[0]), corners[0]) > 0;
     if (is_behind && !two_sided) return 0;
-    const V sum = published_sum(corners[0], corners[1], corners[2], corners[3]);
+    const V sum = vector_form_factor(corners[0], corners[1], corners[2], corners[3]);
     const T length = glm::length(sum), cosine = sum.z / length;
     return at_horizon(length, is_behind ? cosine : -cosine, proxy);
 }
@@ -130,11 +131,11 @@ T clipless_polygon(std::span<const glm::vec<3, T>> corners_in_cosine_space, Prox
 /// What a shader looks up: the inverse matrix between the table's own entries (x, y, z, w; middle entry 1),
 /// interpolated linearly (Heitz et al. 2016), where ours interpolates numbers of a lobe. Their numbers are those of our
 /// fit at the nodes. Roughness and `cosine` (N.V) in [0, 1].
-struct PublishedLobe {
+struct TabledLobe {
     glm::mat3 inverse;  ///< from (tangent of the view's plane, bitangent, normal)
     float albedo, fresnel;
 };
-PublishedLobe published_lobe(float roughness, float cosine);
+TabledLobe lobe_at(float roughness, float cosine);
 
 /// Form factors of a quad light at one point, and the numbers that its specular share is weighted with.
 struct Shares {
@@ -144,7 +145,7 @@ struct Shares {
 
 /// What a shader does at a point for one quad light: frame, table, transform, both integrals. `normal` and `view` are
 /// unit vectors; corners run counter-clockwise seen from the side that emits.
-Shares published_quad(const Vec3f corners[4], Vec3f point, Vec3f normal, Vec3f view, float roughness);
+Shares clipped_quad(const Vec3f corners[4], Vec3f point, Vec3f normal, Vec3f view, float roughness);
 Shares clipless_quad(const Vec3f corners[4], Vec3f point, Vec3f normal, Vec3f view, float roughness, Proxy proxy);
 
-}  // namespace surimi::test
+}  // namespace surimi::published
