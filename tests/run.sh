@@ -16,11 +16,11 @@ echo "== release: build"
 cmake --preset release -DSURIMI_TESTS=ON >/dev/null
 cmake --build --preset release
 echo "== release: test"
-ctest --test-dir build/release --no-tests=error --output-on-failure
+ctest --test-dir build/release --no-tests=error --output-on-failure -j "$(nproc)"
 
 echo "== sanitizers: build"
 cmake --preset asan >/dev/null
 cmake --build --preset asan --target unit_tests stability_tests
 echo "== sanitizers: test"
 # Embree and TBB keep memory until the process ends, by design.
-ASAN_OPTIONS=detect_leaks=0 ctest --test-dir build/asan --no-tests=error --output-on-failure -L 'unit|stability'
+ASAN_OPTIONS=detect_leaks=0 ctest --test-dir build/asan --no-tests=error --output-on-failure -j "$(nproc)" -L 'unit|stability'
