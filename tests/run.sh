@@ -10,7 +10,7 @@ bash .ci/install.sh --tests
 if [[ -z ${SURIMI_SCENES:-} && -d ../shared/scenes ]]; then
     SURIMI_SCENES=$(cd ../shared/scenes && pwd)
 fi
-export SURIMI_SCENES=${SURIMI_SCENES:-}
+export SURIMI_SCENES=${SURIMI_SCENES:-} # empty: the tests that need them are skipped
 
 echo "== release: build"
 cmake --preset release -DSURIMI_TESTS=ON >/dev/null

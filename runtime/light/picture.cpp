@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "runtime/base/bilinear.h"
+
 namespace surimi {
 namespace {
 
@@ -26,20 +28,6 @@ Image<Vec3f> halved_and_transposed(const Image<Vec3f>& image) {
             result.at(y, x) = sum / total;
         }
     return result;
-}
-
-Vec3 bilinear(const Image<Vec3f>& image, const Vec2& uv) {
-    // The negated comparison sends NaN to 0.
-    const auto position = [](double u, int size) {
-        const double x = u * size - 0.5;
-        return !(x > 0) ? 0.0 : std::min(x, static_cast<double>(size - 1));
-    };
-    const double x = position(uv.x, image.width), y = position(uv.y, image.height);
-    const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
-    const int x1 = std::min(x0 + 1, image.width - 1), y1 = std::min(y0 + 1, image.height - 1);
-    const Vec3 top = glm::mix(Vec3(image.at(x0, y0)), Vec3(image.at(x1, y0)), x - x0);
-    const Vec3 bottom = glm::mix(Vec3(image.at(x0, y1)), Vec3(image.at(x1, y1)), x - x0);
-    return glm::mix(top, bottom, y - y0);
 }
 
 Vec2 uv_of(const PictureMapping& mapping, const Vec3& position) {
@@ -79,7 +67,7 @@ std::vector<PictureMapping> upright_mappings(const Monitor& monitor) {
 }
 
 Vec3 picture_at(const MonitorPicture& picture, size_t panel, const Vec3& position) {
-    return bilinear(picture.levels.front(), uv_of(picture.mappings[panel], position));
+    return look_up_bilinear(picture.levels.front(), uv_of(picture.mappings[panel], position));
 }
 
 Vec3 blurred_picture_at(const MonitorPicture& picture, size_t panel, const Vec3& position, double sigma) {
@@ -93,7 +81,7 @@ Vec3 blurred_picture_at(const MonitorPicture& picture, size_t panel, const Vec3&
     const auto below = static_cast<size_t>(level);
     const size_t above = std::min(below + 1, picture.levels.size() - 1);
     const Vec2 uv = uv_of(mapping, position);
-    return glm::mix(bilinear(picture.levels[below], uv), bilinear(picture.levels[above], uv),
+    return glm::mix(look_up_bilinear(picture.levels[below], uv), look_up_bilinear(picture.levels[above], uv),
                     level - static_cast<double>(below));
 }
 

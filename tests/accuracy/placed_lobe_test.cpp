@@ -21,14 +21,7 @@ using test::Real;
 using test::Receiver;
 using test::Vec3l;
 
-struct Choice {
-    Random random;
-    double between(double low, double high) { return low + (high - low) * random.next(); }
-    Vec3 vector() {
-        const double x = between(-1, 1), y = between(-1, 1), z = between(-1, 1);
-        return {x, y, z};
-    }
-    Vec3 direction() { return normalize_or(vector(), {0, 0, 1}); }
+struct LobeChoice : Choice {
     /// Smooth enough to be cut in two by lights, rough enough for quadrature to see it.
     PlacedLobe lobe() {
         const Vec3 normal = direction(), view = direction();
@@ -74,7 +67,7 @@ std::vector<Vec3> points_of(const Ellipse<double>& e) {
 }
 
 TEST(SpecularShare, PolygonMatchesQuadratureOfTheLobe_M17) {
-    Choice choice{{17}};
+    LobeChoice choice{{17}};
     Worst worst;
     Crossings crossings;
     for (int i = 0; i < 80; ++i) {
@@ -90,7 +83,7 @@ TEST(SpecularShare, PolygonMatchesQuadratureOfTheLobe_M17) {
 }
 
 TEST(SpecularShare, EllipseMatchesQuadratureOfTheLobe_M17) {
-    Choice choice{{18}};
+    LobeChoice choice{{18}};
     Worst worst;
     Crossings crossings;
     for (int i = 0; i < 60; ++i) {
@@ -105,7 +98,7 @@ TEST(SpecularShare, EllipseMatchesQuadratureOfTheLobe_M17) {
 }
 
 TEST(SpecularShare, EllipsoidMatchesQuadratureOfTheLobe_M17) {
-    Choice choice{{19}};
+    LobeChoice choice{{19}};
     Worst worst;
     Crossings crossings;
     int seen = 0;
@@ -128,7 +121,7 @@ TEST(SpecularShare, EllipsoidMatchesQuadratureOfTheLobe_M17) {
 }
 
 TEST(SpecularShare, CylinderMatchesQuadratureOfTheLobe_M17) {
-    Choice choice{{20}};
+    LobeChoice choice{{20}};
     Worst worst;
     Crossings crossings;
     int outside = 0;
@@ -149,7 +142,7 @@ TEST(SpecularShare, CylinderMatchesQuadratureOfTheLobe_M17) {
 }
 
 TEST(SpecularShare, LineMatchesQuadratureOfTheLobe_M18) {
-    Choice choice{{21}};
+    LobeChoice choice{{21}};
     Crossings crossings;
     for (int i = 0; i < 200; ++i) {
         const PlacedLobe lobe = choice.lobe();
@@ -166,7 +159,7 @@ TEST(SpecularShare, LineMatchesQuadratureOfTheLobe_M18) {
 }
 
 TEST(SpecularShare, ThinCylinderIsALineOfItsWidth_M18) {
-    Choice choice{{22}};
+    LobeChoice choice{{22}};
     for (int i = 0; i < 50; ++i) {
         const PlacedLobe lobe = choice.lobe();
         const Vec3 a = 2.0 * choice.direction(), b = 2.0 * choice.direction();
@@ -178,7 +171,7 @@ TEST(SpecularShare, ThinCylinderIsALineOfItsWidth_M18) {
 
 TEST(SpecularShare, WithoutLobeAllShapesAreTheirIrradiance_M17) {
     // A lobe that is a cosine about the true normal: both horizons are one. From specks to lights that nearly touch.
-    Choice choice{{23}};
+    LobeChoice choice{{23}};
     const Vec3 o(0);
     for (int i = 0; i < 5000; ++i) {
         const Mat3 frame = frame_of_view(choice.direction(), choice.direction());
@@ -222,7 +215,7 @@ std::vector<std::vector<Vec3>> box(const Vec3& low, const Vec3& high) {
 }
 
 TEST(SpecularShare, WhiteFurnaceReflectsTheAlbedoAndNoMore_M17) {
-    Choice choice{{24}};
+    LobeChoice choice{{24}};
     int count = 0;
     for (const double roughness : {0.0, 1e-3, 0.01, 0.05, 0.2, 0.5, 0.8, 1.0})
         for (const double cosine : {1.0, 0.999999, 0.9, 0.5, 0.1, 0.01, 1e-4, 0.0, -0.3})
@@ -245,7 +238,7 @@ TEST(SpecularShare, WhiteFurnaceReflectsTheAlbedoAndNoMore_M17) {
 }
 
 TEST(SpecularShare, StaysBetweenNoneAndAll_M17) {
-    Choice choice{{25}};
+    LobeChoice choice{{25}};
     double most = 0;
     for (int i = 0; i < 20000; ++i) {
         const Vec3 normal = choice.direction(), view = choice.direction();
@@ -267,7 +260,7 @@ TEST(SpecularShare, StaysBetweenNoneAndAll_M17) {
 }
 
 TEST(SpecularShare, MirrorsShowWhatTheReflectedRayHits_M17) {
-    Choice choice{{26}};
+    LobeChoice choice{{26}};
     int hits = 0, misses = 0;
     for (int i = 0; i < 3000; ++i) {
         const Vec3 normal = choice.direction(), view = choice.direction();
@@ -308,7 +301,7 @@ bool is_hit(const Quad& q, const Vec3& w) {
 }
 
 /// A parallelogram in front of the point, around where the lobe is or anywhere above the horizon.
-Quad random_quad(Choice& choice, double alpha, const Vec3& view) {
+Quad random_quad(LobeChoice& choice, double alpha, const Vec3& view) {
     const bool is_aimed = choice.random.next() < 0.7;
     const double s = choice.random.next(), t = choice.random.next();
     Vec3 toward = sample_ggx(alpha, view, s, t);
@@ -340,7 +333,7 @@ TEST(SpecularShare, QuadLightsAreReflectedAsByGgx_M17) {
         const Vec3 view(std::sqrt(1 - cosine * cosine), 0, cosine);
         const PlacedLobe lobe = place_lobe({0, 0, 1}, view, c.roughness);
         const std::vector<GgxNode> nodes = ggx_nodes(alpha, cosine, 200, 200);
-        Choice choice{{31}};
+        LobeChoice choice{{31}};
         double squares = 0, sum = 0;
         constexpr int count = 300;
         for (int i = 0; i < count; ++i) {

@@ -18,16 +18,6 @@ namespace surimi::hazard {
 using test::Vec3l;
 using Corners = std::vector<Vec3>;
 
-struct Choice {
-    Random random;
-    double between(double low, double high) { return low + (high - low) * random.next(); }
-    Vec3 vector() {
-        const double x = between(-1, 1), y = between(-1, 1), z = between(-1, 1);
-        return {x, y, z};
-    }
-    Vec3 direction() { return normalize_or(vector(), {0, 0, 1}); }
-};
-
 /// The worst of some errors, which the test's report keeps.
 struct Worst {
     double value = 0;

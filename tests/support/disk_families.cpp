@@ -8,16 +8,6 @@ namespace surimi::test {
 
 namespace {
 
-struct Choice {
-    Random random;
-    double between(double low, double high) { return low + (high - low) * random.next(); }
-    Vec3 vector() {
-        const double x = between(-1, 1), y = between(-1, 1), z = between(-1, 1);
-        return {x, y, z};
-    }
-    Vec3 direction() { return normalize_or(vector(), {0, 0, 1}); }
-};
-
 Vec3 as_float(const Vec3& v) {
     return Vec3(Vec3f(v));
 }

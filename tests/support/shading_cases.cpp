@@ -13,14 +13,7 @@ namespace {
 
 using Corners = std::vector<Vec3>;
 
-struct Choice {
-    Random random;
-    double between(double low, double high) { return low + (high - low) * random.next(); }
-    Vec3 vector() {
-        const double x = between(-1, 1), y = between(-1, 1), z = between(-1, 1);
-        return {x, y, z};
-    }
-    Vec3 direction() { return normalize_or(vector(), {0, 0, 1}); }
+struct CaseChoice : Choice {
     double one_of(std::initializer_list<double> values) {
         const auto i = static_cast<size_t>(random.next() * static_cast<double>(values.size()));
         return *(values.begin() + std::min(i, values.size() - 1));
@@ -35,7 +28,7 @@ struct Choice {
 struct Setting {
     Corners corners;
     Vec3 point{0};
-    std::function<Vec3(Choice&)> normal = [](Choice& choice) { return choice.direction(); };
+    std::function<Vec3(CaseChoice&)> normal = [](CaseChoice& choice) { return choice.direction(); };
     bool is_smooth = false;  ///< H13: the roughness is small, and the light lies around the mirror direction
 };
 
@@ -47,64 +40,64 @@ Corners parallelogram(const Vec3& centre, const Vec3& u, const Vec3& v) {
     return {centre - u - v, centre + u - v, centre + u + v, centre - u + v};
 }
 
-Setting antipodal(Choice& choice) {
+Setting antipodal(CaseChoice& choice) {
     const double h = choice.one_of({1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6});
     const double x = choice.between(-0.8, 0.8), y = choice.between(-0.8, 0.8);
-    return {ceiling(x - 1, x + 1, y - 1, y + 1, h), Vec3(0), [](Choice& c) {
+    return {ceiling(x - 1, x + 1, y - 1, y + 1, h), Vec3(0), [](CaseChoice& c) {
                 for (;;)
                     if (const Vec3 n = c.direction(); std::abs(n.z) > 0.05) return n;
             }};
 }
 
-Setting edge_through_foot(Choice& choice) {
+Setting edge_through_foot(CaseChoice& choice) {
     const double d = choice.one_of({1e-2, 1e-4, 1e-6});
     const double angle = choice.between(0, 2 * pi), y = choice.between(-0.8, 0.8);
     const double x = d * std::cos(angle);
     return {ceiling(x, x + 2, y - 1, y + 1, d * std::sin(angle))};
 }
 
-Setting tiny(Choice& choice) {
+Setting tiny(CaseChoice& choice) {
     const double size = choice.one_of({1e-1, 1e-2, 1e-3, 1e-4, 1e-5});
     const Vec3 centre(choice.between(-1, 1), choice.between(-1, 1), 1);
     const Vec3 u = size * choice.direction(), v = size * glm::normalize(glm::cross(u, choice.direction()));
     return {parallelogram(centre, u, v)};
 }
 
-Setting sliver(Choice& choice) {
+Setting sliver(CaseChoice& choice) {
     const double aspect = choice.one_of({1e2, 1e4, 1e6});
     const double x = choice.between(-1, 1), y = choice.between(-1, 1);
     return {ceiling(x - 0.5, x + 0.5, y, y + 1 / aspect, 1)};
 }
 
-Setting without_area(Choice& choice) {
+Setting without_area(CaseChoice& choice) {
     const Vec3 p = choice.vector(), q = choice.vector();
     return {choice.between(0, 1) < 0.5 ? Corners{p, q, p, q} : Corners{p, (p + q) * 0.5, q}};
 }
 
-Setting in_its_plane(Choice& choice) {
+Setting in_its_plane(CaseChoice& choice) {
     const double h = choice.one_of({1e-2, 1e-4, 1e-6}), x = choice.between(1.2, 3), y = choice.between(-2, 2);
-    return {ceiling(x - 1, x + 1, y - 1, y + 1, h), Vec3(0), [](Choice& c) {
+    return {ceiling(x - 1, x + 1, y - 1, y + 1, h), Vec3(0), [](CaseChoice& c) {
                 return normalize_or({1, c.between(-1, 1), c.between(-1, 1)}, {1, 0, 0});
             }};
 }
 
-Setting corner_at_the_point(Choice& choice) {
+Setting corner_at_the_point(CaseChoice& choice) {
     const Vec3 u = choice.vector(), v = choice.vector();
     const Vec3 off = choice.between(0, 1) < 0.5 ? Vec3(0) : 1e-6 * choice.direction();
     return {{off, u + off, u + v + off, v + off}};
 }
 
-Setting touching_the_horizon(Choice& choice) {
+Setting touching_the_horizon(CaseChoice& choice) {
     Corners light = parallelogram(choice.vector(), choice.vector(), choice.vector());
     if (choice.between(0, 1) < 0.5) {
         const double lift = -light[0].z;
         for (Vec3& corner : light) corner.z += lift;
         light[0].z = 0;
     }
-    return {light, Vec3(0), [](Choice&) { return Vec3(0, 0, 1); }};
+    return {light, Vec3(0), [](CaseChoice&) { return Vec3(0, 0, 1); }};
 }
 
-Setting scaled_or_shifted(Choice& choice) {
+Setting scaled_or_shifted(CaseChoice& choice) {
     const Vec3 centre = choice.vector(), u = choice.vector(), v = choice.vector();
     Setting setting{parallelogram(centre, u, v)};
     if (choice.between(0, 1) < 0.5) {
@@ -118,7 +111,7 @@ Setting scaled_or_shifted(Choice& choice) {
     return setting;
 }
 
-Setting smooth(Choice& choice) {
+Setting smooth(CaseChoice& choice) {
     const Vec3 centre = 2.0 * choice.direction();
     const double size = std::pow(10, choice.between(-3, 0));
     Setting setting{parallelogram(centre, size * choice.direction(), size * choice.direction())};
@@ -127,7 +120,7 @@ Setting smooth(Choice& choice) {
 }
 
 /// A light on a wall or in the room, seen from anywhere in it.
-Setting room(Choice& choice) {
+Setting room(CaseChoice& choice) {
     const Vec3 half(choice.between(1, 5), choice.between(1, 2), choice.between(1, 5));
     const auto place = [&] { return half * choice.vector(); };
     Vec3 u = choice.vector(), v = choice.vector();
@@ -135,7 +128,7 @@ Setting room(Choice& choice) {
     return {parallelogram(place(), u, v), place()};
 }
 
-ShadingCase shading_case(const Setting& setting, Choice& choice, int points) {
+ShadingCase shading_case(const Setting& setting, CaseChoice& choice, int points) {
     ShadingCase made;
     made.corners = setting.corners;
     Vec3 centre(0);
@@ -190,7 +183,7 @@ double exact_specular(std::span<const Vec3> corners, const Vec3& point, const Ve
 }
 
 std::vector<ShadingFamily> shading_families(int lights, int points) {
-    const std::vector<std::pair<std::string, Setting (*)(Choice&)>> kinds = {
+    const std::vector<std::pair<std::string, Setting (*)(CaseChoice&)>> kinds = {
         {"H1 antipodal", antipodal},
         {"H2 edge through foot", edge_through_foot},
         {"H3 tiny", tiny},
@@ -204,7 +197,7 @@ std::vector<ShadingFamily> shading_families(int lights, int points) {
         {"rooms", room}};
     std::vector<ShadingFamily> families;
     for (const auto& [name, make] : kinds) {
-        Choice choice{{families.size() + 1}};
+        CaseChoice choice{{families.size() + 1}};
         ShadingFamily family{name, {}};
         for (int i = 0; i < lights; ++i) {
             const Setting setting = make(choice);
