@@ -57,7 +57,7 @@ void place_lobes(const PointBatch& points, LobeBatch& lobes, LobePart part = Lob
 
 /// Adds the shares of one planar convex polygon (three corners or more, counter-clockwise seen from the side that
 /// emits; with fewer nothing is added) to `shares`, whose arrays have the points' length. `is_wanted`, empty or one
-/// flag for each point, lets points be left out: their shares may or may not be added to, so the caller ignores them.
+/// flag for each point, lets points be left out: their shares stay as they are, and whole blocks of them cost nothing.
 /// `lobes` may be empty where only the diffuse share is wanted. A point's result depends on nothing but itself and the
 /// instruction set: not on the other points or on its place among them. A light or a point that is not finite adds
 /// nothing and is counted.

@@ -108,10 +108,8 @@ TEST_P(Batch, PointsThatAreNotWantedChangeNothingElse) {
         ShareBatch some{std::vector<double>(40), std::vector<double>(40), 0};
         add_polygon(points, lobes, light, false, Terms::both, precision, is_wanted, some);
         for (size_t i = 0; i < 40; ++i) {
-            if (is_wanted[i]) {
-                EXPECT_EQ(some.diffuse[i], all.diffuse[i]);
-                EXPECT_EQ(some.specular[i], all.specular[i]);
-            }
+            EXPECT_EQ(some.diffuse[i], is_wanted[i] ? all.diffuse[i] : 0);
+            EXPECT_EQ(some.specular[i], is_wanted[i] ? all.specular[i] : 0);
         }
         EXPECT_EQ(all.not_finite, 3U);
         EXPECT_EQ(some.not_finite, 2U);

@@ -151,6 +151,37 @@ TEST(Preview, ShadingAgreesWithBruteForce) {
     }
 }
 
+TEST(Shade, PointsOfAllMaterialsInOneBatchGetWhatTheyGetAlone) {
+    Scene scene = test::kanikama_room();
+    scene.materials.assign(4, {});  // a metal, a gloss, a matte, an unlit one, by turns
+    scene.materials[1].metallic = scene.materials[2].metallic = scene.materials[2].specular = 0;
+    scene.materials[1].roughness = 0.2;
+    scene.materials[3].unlit = true;
+    const RayScene rays(scene);
+    const VisibilityMap map;
+    std::vector<SurfacePoint> places;
+    for (uint32_t s = 0; s < scene.surfaces.size(); ++s) {
+        scene.surfaces[s].material = static_cast<int>(s % 4);
+        for (uint32_t t = 0; t < scene.surfaces[s].triangles.size(); ++t)
+            places.push_back(surface_point(scene, {s, t}, {0.2, 0.3, 0.5}));
+    }
+    const Lighting lighting = lighting_of(scene, map, rays);
+    std::vector<ShadingPoint> points;
+    for (const SurfacePoint& place : places)
+        points.push_back(shading_point(scene, place, normalize_or(Vec3(0.3, 0.4, 1) - place.position, {0, 1, 0})));
+    std::vector<MonitorCounts> counts(scene.monitors.size());
+    std::vector<Parts> together(points.size()), alone(1);
+    shade(lighting, points, together, counts);
+    int lit = 0;
+    for (size_t i = 0; i < points.size(); ++i) {
+        shade(lighting, std::span(&points[i], 1), alone, counts);
+        EXPECT_EQ(together[i].diffuse, alone[0].diffuse) << i;
+        EXPECT_EQ(together[i].specular, alone[0].specular) << i;
+        lit += together[i].sum() != Vec3(0);
+    }
+    EXPECT_GT(lit, 10);
+}
+
 TEST(ShadingPlan, ComputesOnlyWhatTheSceneCallsFor) {
     Stage stage;
     const RayScene rays(stage.scene);
