@@ -6,10 +6,9 @@
 #include <algorithm>
 #include <sstream>
 
+#include "baker/cli/colors.h"
 #include "baker/cli/numbers.h"
-#include "runtime/base/color.h"
 #include "runtime/base/error.h"
-#include "runtime/image/image_file.h"
 #include "runtime/material/emission.h"
 
 namespace surimi {
@@ -45,18 +44,11 @@ Vec3 parse_color(const std::string& text) {
     return {numbers[0], numbers[1], numbers[2]};
 }
 
+/// Light is not negative, and what is no number is none.
 Image<Vec3f> read_picture(const std::string& file) {
-    const Channels channels = read_channels(file);
-    const size_t count = channels.names.size();
-    const std::string ending = std::filesystem::path(file).extension().string();
-    const bool is_linear = ending == ".exr" || ending == ".hdr";
-    Image<Vec3f> image(channels.width, channels.height);
-    for (size_t i = 0; i < image.pixels.size(); ++i)
-        for (size_t c = 0; c < 3; ++c) {
-            const float value = channels.values[i * count + (count >= 3 ? c : 0)];
-            image.pixels[i][static_cast<int>(c)] =
-                is_linear ? (value > 0 ? value : 0.0f) : static_cast<float>(linear_from_srgb(value));
-        }
+    Image<Vec3f> image = read_colors(file);
+    for (Vec3f& p : image.pixels)
+        for (int c = 0; c < 3; ++c) p[c] = p[c] > 0 ? p[c] : 0.0f;
     return image;
 }
 

@@ -187,14 +187,9 @@ void compare_with_reference(const Lighting& lighting, const View& view, RenderSe
         halves.push_back(render(by_brute_force, view, settings, progress).pixels);
     }
     const Comparison comparison = compare_pictures(picture, halves, exposure);
-    const Image<Vec3f> reference = mean_of(halves);
-    write_picture(beside(options.out, "reference"), reference, settings.show, exposure);
-    Image<float> error(reference.width, reference.height);
-    for (size_t i = 0; i < error.pixels.size(); ++i) {
-        const Vec3f d = glm::abs(picture.pixels.pixels[i] - reference.pixels[i]) * static_cast<float>(exposure);
-        error.pixels[i] = std::max({d.x, d.y, d.z});
-    }
-    constexpr double brightest = 0.1;  // of the heat map: a seventh of what bright surfaces have
+    write_picture(beside(options.out, "reference"), comparison.reference, settings.show, exposure);
+    const double brightest = 0.1 / exposure;  // of the heat map, nits: a seventh of what bright surfaces have
+    const Image<float> error = absolute_difference(picture.pixels, comparison.reference);
     write_file(std::filesystem::path(options.out).replace_extension(".difference.png"),
                encode_png(heat_map(error, 0, brightest)));
     fmt::print("{}\n", options.given.json ? as_json(comparison) : as_text(comparison));

@@ -38,6 +38,12 @@ nlohmann::ordered_json json_of(const ImageDifference& d) {
             {"p99", d.p99},   {"largest", d.largest},          {"notFinite", d.not_finite}};
 }
 
+Image<Vec3f> mean_of(const std::vector<Image<Vec3f>>& halves) {
+    Image<Vec3f> mean(halves[0].width, halves[0].height);
+    for (size_t i = 0; i < mean.pixels.size(); ++i) mean.pixels[i] = 0.5f * (halves[0].pixels[i] + halves[1].pixels[i]);
+    return mean;
+}
+
 }  // namespace
 
 std::string explanation(const Lighting& lighting, const Picture& picture) {
@@ -75,20 +81,15 @@ std::string explanation(const Lighting& lighting, const Picture& picture) {
     return text;
 }
 
-Image<Vec3f> mean_of(const std::vector<Image<Vec3f>>& halves) {
-    Image<Vec3f> mean(halves[0].width, halves[0].height);
-    for (size_t i = 0; i < mean.pixels.size(); ++i) mean.pixels[i] = 0.5f * (halves[0].pixels[i] + halves[1].pixels[i]);
-    return mean;
-}
-
 Comparison compare_pictures(const Picture& picture, const std::vector<Image<Vec3f>>& halves, double exposure) {
     Comparison comparison;
-    const Image<Vec3f> ours = scaled(picture.pixels, exposure), truth = scaled(mean_of(halves), exposure);
+    comparison.reference = mean_of(halves);
+    const Image<Vec3f> ours = scaled(picture.pixels, exposure), truth = scaled(comparison.reference, exposure);
     comparison.all = difference(ours, truth);
     // The mean of two halves errs by half of their difference, where the halves' errors are independent.
     comparison.noise = difference(scaled(halves[0], exposure), scaled(halves[1], exposure)).rmse / 2;
-    comparison.flip =
-        mean(flip(displayed(picture.pixels, Show::lit, exposure), displayed(mean_of(halves), Show::lit, exposure)));
+    comparison.flip = mean(
+        flip(displayed(picture.pixels, Show::lit, exposure), displayed(comparison.reference, Show::lit, exposure)));
     for (size_t b = 0; b + 1 < band_edges.size(); ++b) {
         RoughnessBand band{band_edges[b], band_edges[b + 1], 0, {}};
         std::vector<size_t> chosen;

@@ -23,6 +23,7 @@ struct RoughnessBand {
 /// A picture against a brute-force one of the same view. Numbers are in units of the exposed picture, in which bright
 /// surfaces are 0.7.
 struct Comparison {
+    Image<Vec3f> reference;  ///< mean of its two halves, nits
     ImageDifference all;
     double noise = 0;  ///< root mean square error of the reference itself, from its two halves
     double flip = 0;   ///< mean, of what a screen shows
@@ -34,8 +35,5 @@ Comparison compare_pictures(const Picture& picture, const std::vector<Image<Vec3
 
 std::string as_text(const Comparison& comparison);
 std::string as_json(const Comparison& comparison);
-
-/// Mean of the two halves: the reference itself.
-Image<Vec3f> mean_of(const std::vector<Image<Vec3f>>& halves);
 
 }  // namespace surimi

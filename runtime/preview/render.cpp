@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "runtime/base/error.h"
 #include "runtime/base/random.h"
 #include "runtime/preview/see.h"
 

@@ -53,7 +53,11 @@ Textures make_textures() {
     return textures;
 }
 
-const Textures textures = make_textures();
+/// Made when the first point is shaded in this way, not when the program starts.
+const Textures& textures() {
+    static const Textures made = make_textures();
+    return made;
+}
 
 struct Placed {
     TabledLobe lobe;
@@ -76,13 +80,13 @@ Placed place(const Vec3f corners[4], Vec3f point, Vec3f normal, Vec3f view, floa
 }  // namespace
 
 float tabled_sphere_ratio(float length, float cosine) {
-    return Bilinear(cosine * 0.5F + 0.5F, length)(textures.sphere);
+    return Bilinear(cosine * 0.5F + 0.5F, length)(textures().sphere);
 }
 
 TabledLobe lobe_at(float roughness, float cosine) {
     const Bilinear between(roughness, std::sqrt(1 - cosine));
-    const Vec4f m = between(textures.entries);
-    const Vec2f albedo = between(textures.albedos);
+    const Vec4f m = between(textures().entries);
+    const Vec2f albedo = between(textures().albedos);
     return {glm::mat3(m.x, 0, m.y, 0, 1, 0, m.z, 0, m.w), albedo.x, albedo.y};
 }
 

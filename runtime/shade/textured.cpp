@@ -76,11 +76,11 @@ Vec3 picture_seen(const MonitorPicture& picture, size_t panel, std::span<const V
     const double along = height / slope, distance = std::abs(along), size = glm::length(area_seen);
     if (!(distance > 0) || !std::isfinite(distance) || !(size > 0)) return mean;  // edge-on or unseen
     // The plane's map from the lobe's space back to the world is affine: one ratio of areas for all of it.
-    const double scale = std::sqrt(glm::length(area_vector(corners)) / size);
+    const double area = glm::length(area_vector(corners)), scale = std::sqrt(area / size);
     const double foreshortening = std::sqrt(std::abs(slope) / size);
     const Vec3 place = point + glm::inverse(to_cosine) * (along * toward);
     const double by_lobe = lobe_sigma * distance * scale / std::max(foreshortening, 1e-3);
-    const double by_panel = panel_sigma * std::sqrt(glm::length(area_vector(corners)));
+    const double by_panel = panel_sigma * std::sqrt(area);
     const double sigma = by_lobe * by_panel / std::hypot(by_lobe, by_panel);
     return blurred_picture_at(picture, panel, place, sigma);
 }
