@@ -9,9 +9,13 @@
 namespace surimi {
 
 enum class UvSource {
-    unwrap,    ///< make new charts
-    existing,  ///< take TEXCOORD_1 as it is, after checking it
+    unwrap,     ///< make new charts
+    existing,   ///< take TEXCOORD_1 as it is, after checking it
+    automatic,  ///< existing where it is fit for a lightmap, else new charts
 };
+
+/// How long the charts are tried to be made fewer and longer.
+enum class UvQuality { draft, medium, high };
 
 struct UnwrapSettings {
     UvSource uv = UvSource::unwrap;
@@ -20,6 +24,12 @@ struct UnwrapSettings {
     double texels_per_metre = 0;  ///< 0: follows from the size. Otherwise the size follows (a multiple of 4, at most
                                   ///< 16384), and `width`, `height` are not used
     int gutter = 2;               ///< at least 1
+    int mips = 0;                 ///< mip levels that gutters survive: one texel of gutter is left on level `mips`
+    int atlases = 1;              ///< maps to spread the surfaces over, each of the size above
+    double stretch = 1.5;         ///< above 1: 99 % of a chart's area has at least 1 / stretch of its density in every
+                                  ///< direction, and its mean symmetric Dirichlet energy is at most
+                                  ///< 4 + 0.4 (stretch - 1)^2
+    UvQuality quality = UvQuality::medium;
 };
 
 /// Cuts every surface into charts without flips or overlaps, at one density, and packs them into exactly the size
