@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "baker/unwrap/unwrap.h"
-#include "tests/support/mesh.h"
+#include "tests/support/meshes.h"
 
 namespace surimi {
 namespace {
