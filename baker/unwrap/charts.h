@@ -1,20 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-// Faces -> charts that can be laid flat.
+// The faces of a surface -> flat charts, as few and as long as a bound on their distortion allows.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
+#include "baker/unwrap/distortion.h"
 #include "baker/unwrap/flatten.h"
 #include "baker/unwrap/half_edge.h"
+#include "baker/unwrap/unwrap.h"
+#include "runtime/base/parallel.h"
 
 namespace surimi {
 
-/// Cuts a surface into charts: every face in exactly one, no face seen from behind, no stretch beyond 1.6, no
-/// overlap (up to the rounding that the map's size brings, which is judged later). Near-linear in the number
-/// of faces.
-std::vector<FlatChart> cut_into_charts(const FaceGraph& graph);
+struct CutSettings {
+    DistortionBound bound;
+    UvQuality quality = UvQuality::medium;
+};
 
-/// The same verdict for faces that were one chart before and are not to be grown again.
-void add_valid_charts(const FaceGraph& graph, std::vector<uint32_t> faces, std::vector<FlatChart>& charts);
+CutSettings cut_settings(const UnwrapSettings& settings);
+
+/// Cuts the whole surface at its creases; tries each piece whole, and splits it while it cannot be flattened within the
+/// bound without overlap; then joins charts where that saves visible seam. Slivers are charts of their own. Every chart
+/// is free of flips and of overlaps deeper than rounding to 22 bits.
+/// Throws Error(interrupted) soon after `progress.is_cancelled` answers true.
+std::vector<FlatChart> cut_into_charts(const FaceGraph& graph, const CutSettings& settings, const Progress& progress);
 
 }  // namespace surimi

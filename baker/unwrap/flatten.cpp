@@ -2,9 +2,7 @@
 #include "baker/unwrap/flatten.h"
 
 #include <algorithm>
-#include <queue>
 #include <tuple>
-#include <unordered_map>
 
 namespace surimi {
 namespace {
@@ -74,53 +72,94 @@ void turn_into_tightest_box(FlatChart& chart) {
     chart.extent = high - low;
 }
 
-Vec3 centroid(const FaceGraph& graph, uint32_t face) {
-    const auto& c = graph.corners[face];
-    return (graph.positions[c[0]] + graph.positions[c[1]] + graph.positions[c[2]]) / 3.0;
-}
-
-std::unordered_map<uint32_t, uint32_t> number_faces(const std::vector<uint32_t>& faces) {
-    std::unordered_map<uint32_t, uint32_t> number;
-    number.reserve(faces.size());
-    for (uint32_t i = 0; i < faces.size(); ++i) number.emplace(faces[i], i);
-    return number;
-}
-
 }  // namespace
 
-FlatChart flatten(const FaceGraph& graph, std::vector<uint32_t> faces) {
+FlatChart make_chart(const FaceGraph& graph, const Patch& patch, const std::vector<Vec2>& points) {
     FlatChart chart;
-    Vec3 sum(0);
-    std::vector<uint32_t> places;
-    for (const uint32_t f : faces) {
-        sum += graph.areas[f] * graph.normals[f];
-        chart.area += graph.areas[f];
-        places.insert(places.end(), graph.corners[f].begin(), graph.corners[f].end());
-    }
-    std::sort(places.begin(), places.end());
-    places.erase(std::unique(places.begin(), places.end()), places.end());
-
-    const Vec3 axis = normalize_or(sum, graph.normals[faces[0]]);
-    const Vec3 helper = std::abs(axis.x) < 0.6 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
-    const Vec3 u = normalize_or(glm::cross(helper, axis), Vec3(1, 0, 0));
-    const Vec3 v = glm::cross(axis, u);  // u, v, axis are right-handed: fronts stay counter-clockwise
-    const Vec3 origin = graph.positions[places[0]];
-    for (const uint32_t place : places) {
-        const Vec3 p = graph.positions[place] - origin;
-        chart.points.emplace_back(glm::dot(p, u), glm::dot(p, v));
-    }
-    for (const uint32_t f : faces) {
-        std::array<uint32_t, 3> t{};
-        for (size_t k = 0; k < 3; ++k) {
-            const auto at = std::lower_bound(places.begin(), places.end(), graph.corners[f][k]);
-            t[k] = static_cast<uint32_t>(at - places.begin());
-        }
-        chart.triangles.push_back(t);
+    chart.faces = patch.faces;
+    chart.area = patch.unit * patch.unit;
+    chart.points.reserve(points.size());
+    for (const Vec2& p : points) chart.points.push_back(patch.unit * p);
+    for (size_t i = 0; i < patch.faces.size(); ++i) {
+        const auto& t = patch.triangles[i];
+        std::array<uint32_t, 3> corners{};
+        for (size_t k = 0; k < 3; ++k) corners[(graph.first_corners[patch.faces[i]] + k) % 3] = t[k];
+        chart.triangles.push_back(corners);
         chart.flat_area += 0.5 * doubled_area(chart.points[t[0]], chart.points[t[1]], chart.points[t[2]]);
     }
-    chart.faces = std::move(faces);
     turn_into_tightest_box(chart);
     return chart;
+}
+
+std::vector<std::array<uint32_t, 3>> neighbours_of(const FlatChart& chart) {
+    struct Use {
+        uint32_t low;
+        uint32_t high;
+        uint32_t corner;  // 3 * triangle + k
+    };
+    std::vector<Use> uses;
+    uses.reserve(3 * chart.triangles.size());
+    for (uint32_t t = 0; t < chart.triangles.size(); ++t) {
+        for (uint32_t k = 0; k < 3; ++k) {
+            const auto [low, high] = std::minmax(chart.triangles[t][k], chart.triangles[t][(k + 1) % 3]);
+            uses.push_back({low, high, 3 * t + k});
+        }
+    }
+    std::sort(uses.begin(), uses.end(), [](const Use& l, const Use& r) {
+        return std::tie(l.low, l.high, l.corner) < std::tie(r.low, r.high, r.corner);
+    });
+    std::vector<std::array<uint32_t, 3>> neighbours(chart.triangles.size(), {no_face, no_face, no_face});
+    for (size_t i = 1; i < uses.size(); ++i) {
+        const Use& a = uses[i - 1];
+        const Use& b = uses[i];
+        if (a.low != b.low || a.high != b.high) continue;
+        neighbours[a.corner / 3][a.corner % 3] = b.corner / 3;
+        neighbours[b.corner / 3][b.corner % 3] = a.corner / 3;
+    }
+    return neighbours;
+}
+
+std::vector<FlatChart> divide(const FaceGraph& graph, const FlatChart& chart, const std::vector<uint32_t>& parts) {
+    const auto neighbours = neighbours_of(chart);
+    std::vector<bool> is_seen(parts.size(), false);
+    std::vector<FlatChart> pieces;
+    std::vector<uint32_t> point(chart.points.size());  // of the chart -> of the piece
+    for (uint32_t start = 0; start < parts.size(); ++start) {
+        if (is_seen[start] || parts[start] == left_out) continue;
+        is_seen[start] = true;
+        std::vector<uint32_t> open{start};
+        for (size_t i = 0; i < open.size(); ++i) {
+            for (const uint32_t beyond : neighbours[open[i]]) {
+                if (beyond == no_face || is_seen[beyond] || parts[beyond] != parts[start]) continue;
+                is_seen[beyond] = true;
+                open.push_back(beyond);
+            }
+        }
+        std::sort(open.begin(), open.end());
+        FlatChart piece;
+        piece.surface = chart.surface;
+        for (const uint32_t t : open)
+            for (const uint32_t p : chart.triangles[t]) point[p] = left_out;
+        for (const uint32_t t : open) {
+            std::array<uint32_t, 3> corners{};
+            for (size_t k = 0; k < 3; ++k) {
+                uint32_t& p = point[chart.triangles[t][k]];
+                if (p == left_out) {
+                    p = static_cast<uint32_t>(piece.points.size());
+                    piece.points.push_back(chart.points[chart.triangles[t][k]]);
+                }
+                corners[k] = p;
+            }
+            piece.faces.push_back(chart.faces[t]);
+            piece.triangles.push_back(corners);
+            piece.area += graph.areas[chart.faces[t]];
+            piece.flat_area +=
+                0.5 * doubled_area(piece.points[corners[0]], piece.points[corners[1]], piece.points[corners[2]]);
+        }
+        turn_into_tightest_box(piece);
+        pieces.push_back(std::move(piece));
+    }
+    return pieces;
 }
 
 FlatChart make_sliver(uint32_t face) {
@@ -141,57 +180,6 @@ std::vector<FlatTriangle> rounded_triangles(const FlatChart& chart, double size)
         result.push_back(flat);
     }
     return result;
-}
-
-std::array<std::vector<uint32_t>, 2> split_between(const FaceGraph& graph, const std::vector<uint32_t>& faces,
-                                                   std::array<uint32_t, 2> seeds) {
-    const auto number = number_faces(faces);
-    using Step = std::tuple<double, uint32_t, uint32_t>;  // distance, face (number), side
-    std::priority_queue<Step, std::vector<Step>, std::greater<>> queue;
-    constexpr uint32_t no_side = 2;
-    std::vector<uint32_t> side(faces.size(), no_side);
-    for (uint32_t s = 0; s < 2; ++s) queue.emplace(0.0, seeds[s], s);
-    while (!queue.empty()) {
-        const auto [distance, i, s] = queue.top();
-        queue.pop();
-        if (side[i] != no_side) continue;
-        side[i] = s;
-        for (const uint32_t beyond : graph.neighbours[faces[i]]) {
-            const auto it = number.find(beyond);
-            if (it == number.end() || side[it->second] != no_side) continue;
-            const double step = glm::length(centroid(graph, beyond) - centroid(graph, faces[i]));
-            queue.emplace(distance + step, it->second, s);
-        }
-    }
-    std::array<std::vector<uint32_t>, 2> halves;
-    for (size_t i = 0; i < faces.size(); ++i) halves[side[i] == 1 ? 1 : 0].push_back(faces[i]);
-    return halves;
-}
-
-std::vector<std::vector<uint32_t>> connected_parts(const FaceGraph& graph, const std::vector<uint32_t>& faces) {
-    const auto number = number_faces(faces);
-    std::vector<bool> is_seen(faces.size(), false);
-    std::vector<std::vector<uint32_t>> parts;
-    for (uint32_t start = 0; start < faces.size(); ++start) {
-        if (is_seen[start]) continue;
-        is_seen[start] = true;
-        std::vector<uint32_t> part;
-        std::vector<uint32_t> open{start};
-        while (!open.empty()) {
-            const uint32_t i = open.back();
-            open.pop_back();
-            part.push_back(faces[i]);
-            for (const uint32_t beyond : graph.neighbours[faces[i]]) {
-                const auto it = number.find(beyond);
-                if (it == number.end() || is_seen[it->second]) continue;
-                is_seen[it->second] = true;
-                open.push_back(it->second);
-            }
-        }
-        std::sort(part.begin(), part.end());
-        parts.push_back(std::move(part));
-    }
-    return parts;
 }
 
 }  // namespace surimi

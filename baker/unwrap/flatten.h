@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Faces -> a flat chart by orthographic projection, and the ways to take a chart apart.
+// A flattened patch as a chart, in metres and in its tightest box.
 #pragma once
 
 #include <array>
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "baker/unwrap/check.h"
-#include "baker/unwrap/half_edge.h"
+#include "baker/unwrap/patch.h"
 
 namespace surimi {
 
@@ -24,20 +24,21 @@ struct FlatChart {
     bool is_sliver = false;
 };
 
-/// Projects along the faces' area-weighted mean normal and turns the result into its box of least area.
-FlatChart flatten(const FaceGraph& graph, std::vector<uint32_t> faces);
+/// The patch with the points of its vertices (in its units, counter-clockwise) turned into the box of least area.
+FlatChart make_chart(const FaceGraph& graph, const Patch& patch, const std::vector<Vec2>& points);
+
+/// For each triangle of a chart the one beyond each edge, or no_face.
+std::vector<std::array<uint32_t, 3>> neighbours_of(const FlatChart& chart);
+
+inline constexpr uint32_t left_out = UINT32_MAX;
+
+/// A chart in parts, each as it lies: one chart for every connected piece of the triangles with the same number in
+/// `parts`; those with `left_out` are in none.
+std::vector<FlatChart> divide(const FaceGraph& graph, const FlatChart& chart, const std::vector<uint32_t>& parts);
 
 FlatChart make_sliver(uint32_t face);
 
 /// The flat triangles with coordinates rounded to integers, the longer side of the box being `size` long.
 std::vector<FlatTriangle> rounded_triangles(const FlatChart& chart, double size);
-
-/// Cuts connected faces in two connected halves, each face going to the seed (number within `faces`) that is
-/// nearer along the surface.
-std::array<std::vector<uint32_t>, 2> split_between(const FaceGraph& graph, const std::vector<uint32_t>& faces,
-                                                   std::array<uint32_t, 2> seeds);
-
-/// The connected parts of some faces, ordered by their first face.
-std::vector<std::vector<uint32_t>> connected_parts(const FaceGraph& graph, const std::vector<uint32_t>& faces);
 
 }  // namespace surimi

@@ -58,23 +58,40 @@ void measure_faces(FaceGraph& graph) {
     }
 }
 
-/// The how-manieth face this is on the same three places. Doubled faces would make every edge a four-face
-/// edge; in layers of their own, the second copy of a wall is a wall as well.
+using FaceKey = std::array<uint32_t, 3>;
+
+/// Places of a face, the lowest first, in its own winding.
+FaceKey key_of(const FaceGraph& graph, uint32_t face) {
+    const auto& c = graph.corners[face];
+    const size_t k = graph.first_corners[face];
+    return {c[k], c[(k + 1) % 3], c[(k + 2) % 3]};
+}
+
+void rank_faces(FaceGraph& graph) {
+    const size_t count = graph.corners.size();
+    graph.first_corners.resize(count);
+    for (size_t f = 0; f < count; ++f) {
+        const auto& c = graph.corners[f];
+        graph.first_corners[f] = static_cast<uint8_t>(std::min_element(c.begin(), c.end()) - c.begin());
+    }
+    std::vector<uint32_t> order(count);
+    std::iota(order.begin(), order.end(), 0u);
+    std::vector<FaceKey> keys(count);
+    for (uint32_t f = 0; f < count; ++f) keys[f] = key_of(graph, f);
+    std::sort(order.begin(), order.end(),
+              [&](uint32_t a, uint32_t b) { return std::tie(keys[a], a) < std::tie(keys[b], b); });
+    graph.ranks.resize(count);
+    for (uint32_t i = 0; i < count; ++i) graph.ranks[order[i]] = i;
+}
+
+/// The how-manieth face this is on the same three places with the same front. Doubled faces would make every edge a
+/// four-face edge; in layers of their own, the second copy of a wall is a wall as well.
 std::vector<uint32_t> find_layers(const FaceGraph& graph) {
-    std::vector<std::tuple<uint32_t, uint32_t, uint32_t, uint32_t>> keys;
-    keys.reserve(graph.corners.size());
-    for (uint32_t f = 0; f < graph.corners.size(); ++f) {
-        auto c = graph.corners[f];
-        std::sort(c.begin(), c.end());
-        keys.emplace_back(c[0], c[1], c[2], f);
-    }
-    std::sort(keys.begin(), keys.end());
+    std::vector<uint32_t> order(graph.corners.size());
+    for (uint32_t f = 0; f < order.size(); ++f) order[graph.ranks[f]] = f;
     std::vector<uint32_t> layers(graph.corners.size(), 0);
-    for (size_t i = 1; i < keys.size(); ++i) {
-        const auto& [a, b, c, face] = keys[i];
-        const auto& [before_a, before_b, before_c, before] = keys[i - 1];
-        if (a == before_a && b == before_b && c == before_c) layers[face] = layers[before] + 1;
-    }
+    for (size_t i = 1; i < order.size(); ++i)
+        if (key_of(graph, order[i]) == key_of(graph, order[i - 1])) layers[order[i]] = layers[order[i - 1]] + 1;
     return layers;
 }
 
@@ -92,10 +109,13 @@ struct EdgeUse {
 /// Pairs the uses [begin, end) of one edge: opposite directions, the flattest continuation first.
 void pair_uses(const FaceGraph& graph, const EdgeUse* begin, const EdgeUse* end, std::vector<uint32_t>& partner) {
     struct Match {
-        double bend;
+        float bend;  ///< less precise than the normals: what is equal but for rounding is equal
+        uint32_t low;
+        uint32_t high;
         uint32_t a;
         uint32_t b;
     };
+    const auto rank = [&](uint32_t corner) { return graph.ranks[corner / 3]; };
     std::vector<Match> matches;
     for (const EdgeUse* i = begin; i != end; ++i) {
         for (const EdgeUse* j = i + 1; j != end; ++j) {
@@ -103,11 +123,13 @@ void pair_uses(const FaceGraph& graph, const EdgeUse* begin, const EdgeUse* end,
             const uint32_t start_j = graph.corners[j->corner / 3][j->corner % 3];
             if (start_i == start_j) continue;
             const double bend = -glm::dot(graph.normals[i->corner / 3], graph.normals[j->corner / 3]);
-            matches.push_back({bend, i->corner, j->corner});
+            const auto [low, high] = std::minmax(rank(i->corner), rank(j->corner));
+            matches.push_back({static_cast<float>(bend), low, high, i->corner, j->corner});
         }
     }
-    std::sort(matches.begin(), matches.end(),
-              [](const Match& l, const Match& r) { return std::tie(l.bend, l.a, l.b) < std::tie(r.bend, r.a, r.b); });
+    std::sort(matches.begin(), matches.end(), [](const Match& l, const Match& r) {
+        return std::tie(l.bend, l.low, l.high) < std::tie(r.bend, r.low, r.high);
+    });
     for (const Match& m : matches) {
         if (partner[m.a] != no_face || partner[m.b] != no_face) continue;
         partner[m.a] = m.b;
@@ -197,6 +219,7 @@ FaceGraph build_face_graph(const Surface& surface) {
     FaceGraph graph;
     weld(surface, graph);
     measure_faces(graph);
+    rank_faces(graph);
     const std::vector<uint32_t> fan = unite_fans(pair_edges(graph));
     const HalfEdgeMesh mesh = build_mesh(graph, fan);
     assert(mesh.n_faces() == graph.corners.size());

@@ -2,6 +2,7 @@
 #include "baker/unwrap/unwrap.h"
 
 #include <algorithm>
+#include <numeric>
 #include <string>
 
 #include "baker/unwrap/charts.h"
@@ -10,6 +11,7 @@
 #include "baker/unwrap/fit.h"
 #include "baker/unwrap/half_edge.h"
 #include "baker/unwrap/round_chart.h"
+#include "baker/unwrap/split.h"
 #include "runtime/base/error.h"
 
 namespace surimi {
@@ -37,13 +39,13 @@ void check_settings(const Scene& scene, const UnwrapSettings& settings) {
                                           std::to_string(settings.width) + " x " + std::to_string(settings.height));
 }
 
-void cut_scene(const Scene& scene, const Progress& progress, Work& work) {
+void cut_scene(const Scene& scene, const UnwrapSettings& settings, const Progress& progress, Work& work) {
     work.graphs.resize(scene.surfaces.size());
     std::vector<std::vector<FlatChart>> charts(scene.surfaces.size());
     parallel_stage("charts", scene.surfaces.size(), 1, progress, [&](size_t begin, size_t end) {
         for (size_t s = begin; s < end; ++s) {
             work.graphs[s] = build_face_graph(scene.surfaces[s]);
-            charts[s] = cut_into_charts(work.graphs[s]);
+            charts[s] = cut_into_charts(work.graphs[s], cut_settings(settings), progress);
             for (FlatChart& chart : charts[s]) chart.surface = static_cast<uint32_t>(s);
         }
     });
@@ -53,26 +55,27 @@ void cut_scene(const Scene& scene, const Progress& progress, Work& work) {
 /// What becomes of a chart that is not one to one in its final coordinates.
 std::vector<FlatChart> take_apart(const FaceGraph& graph, const FlatChart& chart, const RoundedChart& rounded,
                                   int round) {
-    std::vector<FlatChart> parts;
+    std::vector<uint32_t> parts(chart.faces.size(), 0);
+    std::vector<FlatChart> slivers;
     if (round >= patient_rounds) {
-        for (const uint32_t f : chart.faces) parts.push_back(flatten(graph, {f}));
+        std::iota(parts.begin(), parts.end(), 0u);
     } else if (!rounded.bad.empty()) {
-        std::vector<bool> is_bad(chart.faces.size(), false);
-        for (const uint32_t t : rounded.bad) is_bad[t] = true;
-        std::vector<uint32_t> good;
-        for (size_t i = 0; i < chart.faces.size(); ++i) {
-            if (is_bad[i])
-                parts.push_back(make_sliver(chart.faces[i]));
-            else
-                good.push_back(chart.faces[i]);
+        for (const uint32_t t : rounded.bad) {
+            parts[t] = left_out;
+            slivers.push_back(make_sliver(chart.faces[t]));
+            slivers.back().surface = chart.surface;
         }
-        add_valid_charts(graph, std::move(good), parts);
     } else {
-        for (auto& half : split_between(graph, chart.faces, rounded.overlapping[rounded.overlapping.size() / 2]))
-            add_valid_charts(graph, std::move(half), parts);
+        std::vector<Vec3> centroids;
+        for (const auto& t : chart.triangles)
+            centroids.emplace_back((chart.points[t[0]] + chart.points[t[1]] + chart.points[t[2]]) / 3.0, 0.0);
+        const auto& apart = rounded.overlapping[rounded.overlapping.size() / 2];
+        const std::vector<uint8_t> sides = split_between(neighbours_of(chart), centroids, apart);
+        parts.assign(sides.begin(), sides.end());
     }
-    for (FlatChart& part : parts) part.surface = chart.surface;
-    return parts;
+    std::vector<FlatChart> pieces = divide(graph, chart, parts);
+    std::move(slivers.begin(), slivers.end(), std::back_inserter(pieces));
+    return pieces;
 }
 
 bool is_one_to_one(const RoundedChart& rounded) {
@@ -137,7 +140,7 @@ Atlas unwrap(const Scene& scene, const UnwrapSettings& settings, const Progress&
 
     Work work;
     std::vector<DensityCap> caps;
-    cut_scene(scene, progress, work);
+    cut_scene(scene, settings, progress, work);
     work.factors = density_factors(scene, caps);
     double known = 0;
     for (int round = 0;; ++round) {

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "baker/unwrap/split.h"
+
+#include <algorithm>
+#include <queue>
+#include <tuple>
+
+namespace surimi {
+namespace {
+
+constexpr uint8_t no_side = 2;
+
+/// Costs are compared as floats: what is equal but for rounding is equal, and the face's number decides.
+using Step = std::tuple<float, uint32_t, uint8_t>;  // cost, face, side
+using Queue = std::priority_queue<Step, std::vector<Step>, std::greater<>>;
+
+struct Shape {
+    Vec3 normal;
+    Vec3 place;
+};
+
+std::vector<Shape> shapes_of(const Patch& patch) {
+    const std::vector<Vec3> places = centroids(patch);
+    std::vector<Shape> shapes;
+    shapes.reserve(places.size());
+    for (size_t i = 0; i < places.size(); ++i) {
+        const auto& t = patch.triangles[i];
+        const Vec3 normal = area_normal(patch.positions[t[0]], patch.positions[t[1]], patch.positions[t[2]]);
+        shapes.push_back({normalize_or(normal, Vec3(0)), places[i]});
+    }
+    return shapes;
+}
+
+/// Weight of squared distances (the patch has area 1) against squared differences of unit normals: compact parts, but
+/// long tubes are still cut lengthwise.
+constexpr double place_weight = 0.5;
+
+double difference(const Shape& a, const Shape& b) {
+    const Vec3 n = a.normal - b.normal;
+    const Vec3 p = a.place - b.place;
+    return glm::dot(n, n) + place_weight * glm::dot(p, p);
+}
+
+uint32_t most_different(const std::vector<Shape>& shapes, const Shape& from) {
+    uint32_t best = 0;
+    float most = -1;
+    for (uint32_t t = 0; t < shapes.size(); ++t) {
+        const auto d = static_cast<float>(difference(shapes[t], from));
+        if (d > most) most = d, best = t;
+    }
+    return best;
+}
+
+Shape mean_of(const Patch& patch, const std::vector<Shape>& shapes, const std::vector<uint8_t>& sides, uint8_t side) {
+    Shape sum{Vec3(0), Vec3(0)};
+    double area = 0;
+    for (size_t t = 0; t < shapes.size(); ++t) {
+        if (sides[t] != side) continue;
+        sum.normal += patch.areas[t] * shapes[t].normal;
+        sum.place += patch.areas[t] * shapes[t].place;
+        area += patch.areas[t];
+    }
+    return {normalize_or(sum.normal, Vec3(0)), sum.place / area};
+}
+
+/// Grows two parts from their seeds, always by the face that differs least from its part's mean.
+std::vector<uint8_t> grow(const Patch& patch, const std::vector<Shape>& shapes, const std::array<Shape, 2>& means,
+                          const std::array<uint32_t, 2>& seeds) {
+    Queue queue;
+    std::vector<uint8_t> sides(shapes.size(), no_side);
+    for (uint8_t s = 0; s < 2; ++s) queue.emplace(-1.0f, seeds[s], s);
+    while (!queue.empty()) {
+        const auto [cost, t, side] = queue.top();
+        queue.pop();
+        if (sides[t] != no_side) continue;
+        sides[t] = side;
+        for (const uint32_t beyond : patch.neighbours[t])
+            if (beyond != no_face && sides[beyond] == no_side)
+                queue.emplace(static_cast<float>(difference(shapes[beyond], means[side])), beyond, side);
+    }
+    return sides;
+}
+
+uint32_t nearest_to(const std::vector<Shape>& shapes, const std::vector<uint8_t>& sides, uint8_t side,
+                    const Shape& mean) {
+    uint32_t best = no_face;
+    float least = INFINITY;
+    for (uint32_t t = 0; t < shapes.size(); ++t) {
+        if (sides[t] != side) continue;
+        const auto d = static_cast<float>(difference(shapes[t], mean));
+        if (best == no_face || d < least) least = d, best = t;
+    }
+    return best;
+}
+
+}  // namespace
+
+std::vector<Vec3> centroids(const Patch& patch) {
+    std::vector<Vec3> result;
+    result.reserve(patch.triangles.size());
+    for (const auto& t : patch.triangles)
+        result.push_back((patch.positions[t[0]] + patch.positions[t[1]] + patch.positions[t[2]]) / 3.0);
+    return result;
+}
+
+std::vector<uint8_t> split_between(const std::vector<std::array<uint32_t, 3>>& neighbours,
+                                   const std::vector<Vec3>& centroids, const std::array<uint32_t, 2>& seeds) {
+    Queue queue;
+    std::vector<uint8_t> sides(neighbours.size(), no_side);
+    for (uint8_t s = 0; s < 2; ++s) queue.emplace(0.0f, seeds[s], s);
+    while (!queue.empty()) {
+        const auto [distance, t, side] = queue.top();
+        queue.pop();
+        if (sides[t] != no_side) continue;
+        sides[t] = side;
+        for (const uint32_t beyond : neighbours[t]) {
+            if (beyond == no_face || sides[beyond] != no_side) continue;
+            const double step = glm::length(centroids[beyond] - centroids[t]);
+            queue.emplace(distance + static_cast<float>(step), beyond, side);
+        }
+    }
+    return sides;
+}
+
+std::vector<uint8_t> split_by_shape(const Patch& patch) {
+    const std::vector<Shape> shapes = shapes_of(patch);
+    const std::vector<uint8_t> all(shapes.size(), 0);
+    std::array<uint32_t, 2> seeds{};
+    seeds[0] = most_different(shapes, mean_of(patch, shapes, all, 0));
+    seeds[1] = most_different(shapes, shapes[seeds[0]]);
+    if (seeds[0] == seeds[1]) seeds[1] = seeds[0] == 0 ? 1 : 0;
+    std::array<Shape, 2> means{shapes[seeds[0]], shapes[seeds[1]]};
+    std::vector<uint8_t> sides;
+    constexpr int rounds = 6;  // the parts hardly change after
+    for (int i = 0; i < rounds; ++i) {
+        sides = grow(patch, shapes, means, seeds);
+        for (uint8_t s = 0; s < 2; ++s) {
+            means[s] = mean_of(patch, shapes, sides, s);
+            seeds[s] = nearest_to(shapes, sides, s, means[s]);
+        }
+    }
+    return sides;
+}
+
+void cut_between(const FaceGraph& graph, const Patch& patch, const std::vector<uint8_t>& sides, Seams& seams) {
+    for (uint32_t t = 0; t < sides.size(); ++t) {
+        for (uint32_t k = 0; k < 3; ++k) {
+            const uint32_t beyond = patch.neighbours[t][k];
+            if (beyond == no_face || sides[beyond] == sides[t]) continue;
+            set_seam(graph, patch.faces[t], (graph.first_corners[patch.faces[t]] + k) % 3, true, seams);
+        }
+    }
+}
+
+}  // namespace surimi

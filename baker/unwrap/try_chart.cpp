@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "baker/unwrap/try_chart.h"
+
+#include "baker/unwrap/curvature.h"
+#include "baker/unwrap/relax.h"
+
+namespace surimi {
+namespace {
+
+/// How far the forecast may be off before it decides.
+constexpr double forecast_tolerance = 2;
+
+}  // namespace
+
+Attempt try_chart(const FaceGraph& graph, const Patch& patch, const DistortionBound& bound) {
+    Attempt attempt;
+    const std::vector<double> logarithms = conformal_logarithms(patch);
+    if (predicted_energy(patch, logarithms) - 4 > forecast_tolerance * (bound.energy - 4)) return attempt;
+    const std::optional<Flattening> flat = flatten_within(patch, logarithms, bound);
+    if (!flat) return attempt;
+    FlatChart chart = make_chart(graph, patch, flat->points);
+    // As fine as float texture coordinates are on a quarter of the map; contacts of a few such units are left
+    // to round_chart, which knows the final coordinates.
+    constexpr double units = 1 << 22;
+    constexpr double margin = 3;
+    const auto pairs = overlapping_pairs(rounded_triangles(chart, units), margin, 64);
+    if (pairs.empty())
+        attempt.chart = std::move(chart);
+    else
+        attempt.apart = pairs[pairs.size() / 2];
+    return attempt;
+}
+
+}  // namespace surimi
