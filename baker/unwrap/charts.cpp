@@ -38,18 +38,20 @@ std::vector<FlatChart> split_until_flat(const FaceGraph& graph, std::vector<std:
                                         const CutSettings& settings, const Progress& progress, Seams& seams) {
     std::vector<FlatChart> charts;
     std::vector<uint32_t> number(graph.corners.size());
+    bool is_whole = true;  // pieces that creases alone have cut out
     while (!open.empty()) {
         std::vector<Attempt> attempts(open.size());
         parallel_for(open.size(), 1, [&](size_t i) {
             stop_if_cancelled(progress);
             Patch patch = build_patch(graph, seams, std::move(open[i]), number);
-            attempts[i] = try_chart(graph, patch, settings.bound);
+            attempts[i] = try_chart(graph, patch, is_whole ? settings.bound : settings.comfort);
             if (attempts[i].chart) return;
             const bool overlaps = attempts[i].apart[0] != attempts[i].apart[1];
             cut_between(graph, patch, overlaps ? split_between(patch.neighbours, centroids(patch), attempts[i].apart) : split_by_shape(patch), seams);
             attempts[i].parts = connected_parts(graph, seams, patch.faces, number);
         });
         open.clear();
+        is_whole = false;
         for (Attempt& attempt : attempts) {
             if (attempt.chart) charts.push_back(std::move(*attempt.chart));
             std::move(attempt.parts.begin(), attempt.parts.end(), std::back_inserter(open));
@@ -71,7 +73,9 @@ std::vector<FlatChart> cut_faces(const FaceGraph& graph, const std::vector<uint3
 
 CutSettings cut_settings(const UnwrapSettings& settings) {
     const double excess = settings.stretch - 1;
-    return {{4 + 0.4 * excess * excess, settings.stretch}, settings.quality};
+    const auto bound = [](double e) { return DistortionBound{4 + 0.4 * e * e, 1 + e}; };
+    const char* env = getenv("COMFORT");
+    return {bound(excess), bound((env ? atof(env) : 0.5) * excess), settings.quality};
 }
 
 std::vector<FlatChart> cut_into_charts(const FaceGraph& graph, const CutSettings& settings, const Progress& progress) {

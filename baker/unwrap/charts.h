@@ -14,7 +14,8 @@
 namespace surimi {
 
 struct CutSettings {
-    DistortionBound bound;
+    DistortionBound bound;    ///< of every chart
+    DistortionBound comfort;  ///< pieces above it are split further, and joined again only where that pays
     UvQuality quality = UvQuality::medium;
 };
 

@@ -59,8 +59,20 @@ Vec2 tightest_axis(const std::vector<Vec2>& hull) {
     return best;
 }
 
+double area_of(const std::vector<Vec2>& hull) {
+    double doubled = 0;
+    for (size_t i = 2; i < hull.size(); ++i) doubled += doubled_area(hull[0], hull[i - 1], hull[i]);
+    return 0.5 * doubled;
+}
+
+/// How much of the room between a chart and its convex hull stays empty on a packed map.
+constexpr double empty_share = 0.3;
+
 void turn_into_tightest_box(FlatChart& chart) {
-    const Vec2 axis = tightest_axis(convex_hull(chart.points));
+    const std::vector<Vec2> hull = convex_hull(chart.points);
+    const Vec2 axis = tightest_axis(hull);
+    const double hollow = area_of(hull) - chart.flat_area;
+    chart.need = chart.stretch * chart.stretch * chart.area * (1 + empty_share * hollow / chart.flat_area);
     Vec2 low{INFINITY};
     Vec2 high{-INFINITY};
     for (Vec2& p : chart.points) {
@@ -74,12 +86,13 @@ void turn_into_tightest_box(FlatChart& chart) {
 
 }  // namespace
 
-FlatChart make_chart(const FaceGraph& graph, const Patch& patch, const std::vector<Vec2>& points) {
+FlatChart make_chart(const FaceGraph& graph, const Patch& patch, const Flattening& flat) {
     FlatChart chart;
     chart.faces = patch.faces;
     chart.area = patch.unit * patch.unit;
-    chart.points.reserve(points.size());
-    for (const Vec2& p : points) chart.points.push_back(patch.unit * p);
+    chart.stretch = flat.distortion.stretch;
+    chart.points.reserve(flat.points.size());
+    for (const Vec2& p : flat.points) chart.points.push_back(patch.unit * p);
     for (size_t i = 0; i < patch.faces.size(); ++i) {
         const auto& t = patch.triangles[i];
         std::array<uint32_t, 3> corners{};
@@ -138,6 +151,7 @@ std::vector<FlatChart> divide(const FaceGraph& graph, const FlatChart& chart, co
         std::sort(open.begin(), open.end());
         FlatChart piece;
         piece.surface = chart.surface;
+        piece.stretch = chart.stretch;
         for (const uint32_t t : open)
             for (const uint32_t p : chart.triangles[t]) point[p] = left_out;
         for (const uint32_t t : open) {

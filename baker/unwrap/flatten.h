@@ -8,6 +8,7 @@
 
 #include "baker/unwrap/check.h"
 #include "baker/unwrap/patch.h"
+#include "baker/unwrap/relax.h"
 
 namespace surimi {
 
@@ -21,11 +22,14 @@ struct FlatChart {
     Vec2 extent{0};                                  ///< of the box, metres
     double area = 0;                                 ///< of the faces in space, square metres
     double flat_area = 0;                            ///< of the flat triangles
+    double stretch = 1;                              ///< see Distortion
+    double need = 0;                                 ///< room that it takes on a map, square metres: stretched areas want
+                                                     ///< more texels, and its hollows are hard to fill
     bool is_sliver = false;
 };
 
 /// The patch with the points of its vertices (in its units, counter-clockwise) turned into the box of least area.
-FlatChart make_chart(const FaceGraph& graph, const Patch& patch, const std::vector<Vec2>& points);
+FlatChart make_chart(const FaceGraph& graph, const Patch& patch, const Flattening& flat);
 
 /// For each triangle of a chart the one beyond each edge, or no_face.
 std::vector<std::array<uint32_t, 3>> neighbours_of(const FlatChart& chart);

@@ -93,6 +93,14 @@ class Joiner {
         return std::min(a.area, b.area) < crumb_share * std::max(a.area, b.area);
     }
 
+    /// Whether the seam that is saved is worth the texels that the joined chart needs more.
+    bool is_worth_it(const Run& run, const FlatChart& joined) const {
+        const auto [a, b] = run.charts;
+        static const double texels_for_seam = getenv("LAMBDA") ? atof(getenv("LAMBDA")) : 0.15;
+        const double before = charts_[a].need + (a == b ? 0 : charts_[b].need);
+        return joined.need - before <= texels_for_seam * (run.visible + 0.05 * run.length) * std::sqrt(joined.area);
+    }
+
     std::vector<Run> runs_around(uint32_t chart) {
         std::map<uint32_t, std::vector<Edge>> by_neighbour;
         for (const uint32_t f : charts_[chart].faces) {
@@ -160,7 +168,7 @@ class Joiner {
                   [&](uint32_t l, uint32_t r) { return graph_.ranks[l] < graph_.ranks[r]; });
         const Patch patch = build_patch(graph_, seams_, std::move(faces), number_);
         Attempt attempt = try_chart(graph_, patch, settings_.bound);
-        if (!attempt.chart) {
+        if (!attempt.chart || !is_worth_it(run, *attempt.chart)) {
             for (const Edge& edge : run.edges) set_seam(graph_, edge.face, edge.k, true, seams_);
             return false;
         }

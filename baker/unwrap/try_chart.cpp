@@ -18,7 +18,7 @@ Attempt try_chart(const FaceGraph& graph, const Patch& patch, const DistortionBo
     if (predicted_energy(patch, logarithms) - 4 > forecast_tolerance * (bound.energy - 4)) return attempt;
     const std::optional<Flattening> flat = flatten_within(patch, logarithms, bound);
     if (!flat) return attempt;
-    FlatChart chart = make_chart(graph, patch, flat->points);
+    FlatChart chart = make_chart(graph, patch, *flat);
     // As fine as float texture coordinates are on a quarter of the map; contacts of a few such units are left
     // to round_chart, which knows the final coordinates.
     constexpr double units = 1 << 22;
