@@ -143,7 +143,7 @@ bool do_share_area(const GridTriangle& a, const GridTriangle& b) {
 TEST(SingleCover, AgreesWithComparingAllPairs) {
     std::mt19937 random(1);
     size_t fit = 0, crowded = 0;
-    for (int round = 0; round < 4000; ++round) {
+    for (int round = 0; round < 1200; ++round) {
         const auto width = static_cast<uint32_t>(3 + round % 12);  // on few points, edges and corners meet often
         const auto any = [&] { return static_cast<int64_t>(random() % width); };
         std::vector<GridTriangle> triangles;
@@ -160,8 +160,8 @@ TEST(SingleCover, AgreesWithComparingAllPairs) {
             (is_free ? fit : crowded) += 1;
         }
     }
-    EXPECT_GT(fit, 5000u);
-    EXPECT_GT(crowded, 5000u);
+    EXPECT_GT(fit, 1000u);
+    EXPECT_GT(crowded, 1000u);
 }
 
 TEST(StretchOfCharts, IsThatOfTheFormula) {
