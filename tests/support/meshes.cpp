@@ -285,12 +285,13 @@ Mesh degenerate_grid() {
         const auto& [a, b, c] = mesh.triangles[t];
         const uint32_t d = mesh.triangles[t + 1][2];
         const double kind = unit(random);
+        // Rounded to float, as a file stores it, so that areas meant to be zero are almost zero.
         const auto between = [&](uint32_t p, uint32_t q, double off) {
-            return add(result, 0.5 * (result.positions[p] + result.positions[q]) + Vec3(0, off, 0));
+            return add(result, Vec3(Vec3f(0.5 * (result.positions[p] + result.positions[q]) + Vec3(0, off, 0))));
         };
         if (kind < 0.05) {
             out.insert(out.end(), {{a, b, b}, {a, b, c}, {a, c, d}});
-        } else if (kind < 0.12) {  // a zero area upon the diagonal
+        } else if (kind < 0.12) {  // next to no area upon the diagonal
             const uint32_t m = between(a, c, 0);
             out.insert(out.end(), {{a, b, c}, {a, c, m}, {a, m, d}, {m, c, d}});
         } else if (kind < 0.2) {  // a needle along an edge

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <ostream>
 #include <vector>
 
 #include "runtime/scene/scene.h"
@@ -54,6 +55,9 @@ struct NamedMesh {
     const char* name;
     Mesh (*make)();
 };
+inline std::ostream& operator<<(std::ostream& out, const NamedMesh& mesh) {
+    return out << mesh.name;
+}
 
 /// All of the above, in sizes that a sanitised build can handle.
 const std::vector<NamedMesh>& all_meshes();
