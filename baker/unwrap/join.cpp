@@ -6,14 +6,12 @@
 #include <queue>
 #include <tuple>
 
+#include "baker/unwrap/seam_cost.h"
 #include "baker/unwrap/try_chart.h"
 #include "runtime/base/error.h"
 
 namespace surimi {
 namespace {
-
-/// A seam across a sharper edge than this is not seen.
-const double visible_cosine = std::cos(40 * pi / 180);
 
 constexpr uint32_t no_chart = UINT32_MAX;
 
@@ -27,8 +25,7 @@ struct Edge {
 struct Run {
     std::array<uint32_t, 2> charts;
     std::vector<Edge> edges;  ///< seen from the first chart
-    double visible = 0;       ///< length across edges that are not creases, metres
-    double length = 0;
+    SeamLength length;
 };
 
 /// How many times over, on average, a surface's triangles may be flattened in tries to join charts.
@@ -79,7 +76,7 @@ class Joiner {
     void offer(Run run) {
         if (!is_worth_a_try(run)) return;
         const auto number = static_cast<int64_t>(runs_.size());
-        queue_.emplace(static_cast<float>(run.visible), static_cast<float>(run.length), -number, runs_.size());
+        queue_.emplace(static_cast<float>(run.length.visible), static_cast<float>(run.length.all), -number, runs_.size());
         runs_.push_back(std::move(run));
     }
 
@@ -87,7 +84,7 @@ class Joiner {
     bool is_worth_a_try(const Run& run) const {
         const FlatChart& a = charts_[run.charts[0]];
         const FlatChart& b = charts_[run.charts[1]];
-        if (run.visible > 0) return true;
+        if (run.length.visible > 0) return true;
         if (run.charts[0] == run.charts[1]) return false;
         constexpr double crumb_share = 0.02;
         return std::min(a.area, b.area) < crumb_share * std::max(a.area, b.area);
@@ -96,9 +93,8 @@ class Joiner {
     /// Whether the seam that is saved is worth the texels that the joined chart needs more.
     bool is_worth_it(const Run& run, const FlatChart& joined) const {
         const auto [a, b] = run.charts;
-        static const double texels_for_seam = getenv("LAMBDA") ? atof(getenv("LAMBDA")) : 0.15;
         const double before = charts_[a].need + (a == b ? 0 : charts_[b].need);
-        return joined.need - before <= texels_for_seam * (run.visible + 0.05 * run.length) * std::sqrt(joined.area);
+        return joined.need - before <= worth_of(run.length, joined.area);
     }
 
     std::vector<Run> runs_around(uint32_t chart) {
@@ -125,13 +121,14 @@ class Joiner {
         std::vector<bool> is_taken(edges.size(), false);
         for (uint32_t start = 0; start < edges.size(); ++start) {
             if (is_taken[start]) continue;
-            Run run{{chart, neighbour}, {}, 0, 0};
+            Run run{{chart, neighbour}, {}, {}};
             std::vector<uint32_t> open{start};
             is_taken[start] = true;
             while (!open.empty()) {
                 const Edge edge = edges[open.back()];
                 open.pop_back();
-                add(edge, run);
+                run.edges.push_back(edge);
+                add_edge(graph_, edge.face, edge.k, run.length);
                 for (const uint32_t place : ends(edge)) {
                     for (const uint32_t e : at[place]) {
                         if (is_taken[e]) continue;
@@ -147,15 +144,6 @@ class Joiner {
     std::array<uint32_t, 2> ends(const Edge& edge) const {
         const auto& c = graph_.corners[edge.face];
         return {c[edge.k], c[(edge.k + 1) % 3]};
-    }
-
-    void add(const Edge& edge, Run& run) const {
-        const auto [a, b] = ends(edge);
-        const double length = glm::length(graph_.positions[b] - graph_.positions[a]);
-        const uint32_t beyond = graph_.neighbours[edge.face][edge.k];
-        run.edges.push_back(edge);
-        run.length += length;
-        if (glm::dot(graph_.normals[edge.face], graph_.normals[beyond]) > visible_cosine) run.visible += length;
     }
 
     bool try_to_join(const Run& run) {

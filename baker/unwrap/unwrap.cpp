@@ -11,6 +11,7 @@
 #include "baker/unwrap/fit.h"
 #include "baker/unwrap/half_edge.h"
 #include "baker/unwrap/round_chart.h"
+#include "baker/unwrap/shorten.h"
 #include "baker/unwrap/split.h"
 #include "runtime/base/error.h"
 
@@ -142,6 +143,8 @@ Atlas unwrap(const Scene& scene, const UnwrapSettings& settings, const Progress&
     std::vector<DensityCap> caps;
     cut_scene(scene, settings, progress, work);
     work.factors = density_factors(scene, caps);
+    for (const FlatChart& chart : work.charts) work.chart_factors.push_back(work.factors[chart.surface]);
+    shorten_charts(work.graphs, work.charts, work.chart_factors);
     double known = 0;
     for (int round = 0;; ++round) {
         work.chart_factors.clear();

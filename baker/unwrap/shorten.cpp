@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "baker/unwrap/shorten.h"
+
+#include <algorithm>
+#include <queue>
+#include <tuple>
+
+#include "baker/unwrap/seam_cost.h"
+#include "runtime/base/parallel.h"
+
+namespace surimi {
+namespace {
+
+/// The share of the map that charts fill, about.
+constexpr double filled_share = 0.8;
+/// Charts up to this share of the map's side leave the packer its freedom.
+constexpr double easy_length = 0.9;
+constexpr uint32_t most_parts = 8;
+
+Vec2 centroid(const FlatChart& chart, uint32_t t) {
+    const auto& c = chart.triangles[t];
+    return (chart.points[c[0]] + chart.points[c[1]] + chart.points[c[2]]) / 3.0;
+}
+
+/// How far along its longer direction each triangle lies, from 0 to 1: along the box of a compact chart, along the
+/// surface in a bent one.
+std::vector<double> progress_along(const FlatChart& chart, const std::vector<std::array<uint32_t, 3>>& neighbours,
+                                   bool is_bent) {
+    const auto count = static_cast<uint32_t>(chart.triangles.size());
+    std::vector<double> along(count);
+    const size_t axis = chart.extent.x >= chart.extent.y ? 0 : 1;
+    for (uint32_t t = 0; t < count; ++t)
+        along[t] = centroid(chart, t)[static_cast<glm::length_t>(axis)] / chart.extent[static_cast<glm::length_t>(axis)];
+    if (!is_bent) return along;
+    const auto walk = [&](uint32_t from) {
+        using Step = std::tuple<float, uint32_t>;
+        std::priority_queue<Step, std::vector<Step>, std::greater<>> queue;
+        std::vector<bool> is_done(count, false);
+        queue.emplace(0.0f, from);
+        uint32_t last = from;
+        while (!queue.empty()) {
+            const auto [distance, t] = queue.top();
+            queue.pop();
+            if (is_done[t]) continue;
+            is_done[t] = true;
+            along[t] = static_cast<double>(distance);
+            last = t;
+            for (const uint32_t beyond : neighbours[t]) {
+                if (beyond == no_face || is_done[beyond]) continue;
+                const double step = glm::length(centroid(chart, beyond) - centroid(chart, t));
+                queue.emplace(distance + static_cast<float>(step), beyond);
+            }
+        }
+        return last;
+    };
+    const uint32_t longest = walk(walk(0));  // from one end to the other
+    const double whole = along[longest];
+    for (double& a : along) a = whole > 0 ? a / whole : 0;
+    return along;
+}
+
+struct Division {
+    std::vector<FlatChart> pieces;
+    double cost = 0;  ///< room on the map and seams, square metres
+};
+
+/// Into `count` parts of about the same length, the cuts moved to where they show least.
+Division divide_evenly(const FaceGraph& graph, const FlatChart& chart, uint32_t count,
+                       const std::vector<std::array<uint32_t, 3>>& neighbours, const std::vector<double>& along) {
+    struct Crossing {  // an edge inside the chart and the stretch of progress over which a cut would open it
+        double from;
+        double to;
+        SeamLength length;
+    };
+    std::vector<Crossing> crossings;
+    for (uint32_t t = 0; t < along.size(); ++t) {
+        for (uint32_t k = 0; k < 3; ++k) {
+            const uint32_t beyond = neighbours[t][k];
+            if (beyond == no_face || beyond < t || along[t] == along[beyond]) continue;
+            Crossing crossing{std::min(along[t], along[beyond]), std::max(along[t], along[beyond]), {}};
+            add_edge(graph, chart.faces[t], k, crossing.length);
+            crossings.push_back(crossing);
+        }
+    }
+    Division division;
+    std::vector<uint32_t> parts(along.size(), 0);
+    for (uint32_t cut = 1; cut < count; ++cut) {
+        constexpr int tries = 11;  // over the middle fifth of a part
+        double best_worth = INFINITY;
+        double best_at = 0;
+        for (int i = 0; i < tries; ++i) {
+            const double at = (cut + 0.2 * (i - tries / 2) / (tries - 1)) / count;
+            SeamLength seam;
+            for (const Crossing& c : crossings) {
+                if (c.from > at || c.to <= at) continue;
+                seam.visible += c.length.visible;
+                seam.all += c.length.all;
+            }
+            // Cuts that show alike: the one nearer to the middle.
+            const double worth = worth_of(seam, chart.area) * (1 + 0.01 * std::abs(i - tries / 2));
+            if (worth < best_worth) best_worth = worth, best_at = at;
+        }
+        division.cost += best_worth;
+        for (uint32_t t = 0; t < along.size(); ++t) parts[t] += along[t] >= best_at ? 1 : 0;
+    }
+    division.pieces = divide(graph, chart, parts);
+    for (const FlatChart& piece : division.pieces) division.cost += piece.need;
+    return division;
+}
+
+/// The map as seen from a chart, in metres at the chart's density.
+struct Room {
+    double need = 0;         ///< of all charts, square metres
+    double easy_length = 0;  ///< a chart up to this length fits anywhere
+};
+
+double longer_side(const FlatChart& chart) {
+    return std::max(chart.extent.x, chart.extent.y);
+}
+
+/// What the longest of some charts costs: the density of all falls until it fits.
+double cost_of_length(const std::vector<FlatChart>& charts, const Room& room) {
+    double longest = room.easy_length;
+    for (const FlatChart& chart : charts) longest = std::max(longest, longer_side(chart));
+    const double ratio = longest / room.easy_length;
+    return room.need * (ratio * ratio - 1);
+}
+
+/// The best way to divide a chart; empty when it stays whole.
+std::vector<FlatChart> shorten(const FaceGraph& graph, const FlatChart& chart, const Room& room) {
+    constexpr double hollow_need = 1.15;  // of the texels of the chart itself
+    const bool is_hollow = chart.need > hollow_need * chart.stretch * chart.stretch * chart.area;
+    if (chart.is_sliver || chart.faces.size() < 2) return {};
+    if (!is_hollow && longer_side(chart) <= room.easy_length) return {};
+    const auto neighbours = neighbours_of(chart);
+    const std::vector<double> along = progress_along(chart, neighbours, is_hollow);
+    Division best{{}, chart.need + cost_of_length({chart}, room)};
+    for (uint32_t count = 2; count <= most_parts; ++count) {
+        Division division = divide_evenly(graph, chart, count, neighbours, along);
+        division.cost += cost_of_length(division.pieces, room);
+        if (division.cost < best.cost) best = std::move(division);
+    }
+    return std::move(best.pieces);
+}
+
+}  // namespace
+
+void shorten_charts(const std::vector<FaceGraph>& graphs, std::vector<FlatChart>& charts,
+                    std::vector<double>& factors) {
+    double need = 0;
+    for (size_t i = 0; i < charts.size(); ++i) need += charts[i].need * factors[i] * factors[i];
+    const double easy = easy_length * std::sqrt(need / filled_share);
+    std::vector<std::vector<FlatChart>> pieces(charts.size());
+    parallel_for(charts.size(), 1, [&](size_t i) {
+        const Room room{need / (factors[i] * factors[i]), easy / factors[i]};
+        pieces[i] = shorten(graphs[charts[i].surface], charts[i], room);
+    });
+    std::vector<FlatChart> shorter;
+    std::vector<double> shorter_factors;
+    for (size_t i = 0; i < charts.size(); ++i) {
+        if (pieces[i].empty()) pieces[i].push_back(std::move(charts[i]));
+        shorter_factors.insert(shorter_factors.end(), pieces[i].size(), factors[i]);
+        std::move(pieces[i].begin(), pieces[i].end(), std::back_inserter(shorter));
+    }
+    charts = std::move(shorter);
+    factors = std::move(shorter_factors);
+}
+
+}  // namespace surimi
