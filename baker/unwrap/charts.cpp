@@ -47,7 +47,10 @@ std::vector<FlatChart> split_until_flat(const FaceGraph& graph, std::vector<std:
             attempts[i] = try_chart(graph, patch, is_whole ? settings.bound : settings.comfort);
             if (attempts[i].chart) return;
             const bool overlaps = attempts[i].apart[0] != attempts[i].apart[1];
-            cut_between(graph, patch, overlaps ? split_between(patch.neighbours, centroids(patch), attempts[i].apart) : split_by_shape(patch), seams);
+            std::vector<uint8_t> sides = overlaps ? split_between(patch.neighbours, centroids(patch), attempts[i].apart)
+                                                  : split_by_shape(patch);
+            straighten(graph, patch, sides);
+            cut_between(graph, patch, sides, seams);
             attempts[i].parts = connected_parts(graph, seams, patch.faces, number);
         });
         open.clear();

@@ -2,10 +2,9 @@
 #include "baker/unwrap/shorten.h"
 
 #include <algorithm>
-#include <queue>
-#include <tuple>
 
 #include "baker/unwrap/seam_cost.h"
+#include "baker/unwrap/walk.h"
 #include "runtime/base/parallel.h"
 
 namespace surimi {
@@ -32,30 +31,12 @@ std::vector<double> progress_along(const FlatChart& chart, const std::vector<std
     for (uint32_t t = 0; t < count; ++t)
         along[t] = centroid(chart, t)[static_cast<glm::length_t>(axis)] / chart.extent[static_cast<glm::length_t>(axis)];
     if (!is_bent) return along;
-    const auto walk = [&](uint32_t from) {
-        using Step = std::tuple<float, uint32_t>;
-        std::priority_queue<Step, std::vector<Step>, std::greater<>> queue;
-        std::vector<bool> is_done(count, false);
-        queue.emplace(0.0f, from);
-        uint32_t last = from;
-        while (!queue.empty()) {
-            const auto [distance, t] = queue.top();
-            queue.pop();
-            if (is_done[t]) continue;
-            is_done[t] = true;
-            along[t] = static_cast<double>(distance);
-            last = t;
-            for (const uint32_t beyond : neighbours[t]) {
-                if (beyond == no_face || is_done[beyond]) continue;
-                const double step = glm::length(centroid(chart, beyond) - centroid(chart, t));
-                queue.emplace(distance + static_cast<float>(step), beyond);
-            }
-        }
-        return last;
-    };
-    const uint32_t longest = walk(walk(0));  // from one end to the other
-    const double whole = along[longest];
-    for (double& a : along) a = whole > 0 ? a / whole : 0;
+    std::vector<Vec3> centroids;
+    for (uint32_t t = 0; t < count; ++t) centroids.emplace_back(centroid(chart, t), 0.0);
+    const uint32_t end = walk_from({0}, neighbours, centroids).last;
+    const Walk walk = walk_from({end}, neighbours, centroids);
+    const auto whole = static_cast<double>(walk.distance[walk.last]);
+    for (uint32_t t = 0; t < count; ++t) along[t] = whole > 0 ? static_cast<double>(walk.distance[t]) / whole : 0;
     return along;
 }
 

@@ -5,6 +5,10 @@
 #include <queue>
 #include <tuple>
 
+#include "baker/unwrap/min_cut.h"
+#include "baker/unwrap/seam_cost.h"
+#include "baker/unwrap/walk.h"
+
 namespace surimi {
 namespace {
 
@@ -105,20 +109,9 @@ std::vector<Vec3> centroids(const Patch& patch) {
 
 std::vector<uint8_t> split_between(const std::vector<std::array<uint32_t, 3>>& neighbours,
                                    const std::vector<Vec3>& centroids, const std::array<uint32_t, 2>& seeds) {
-    Queue queue;
-    std::vector<uint8_t> sides(neighbours.size(), no_side);
-    for (uint8_t s = 0; s < 2; ++s) queue.emplace(0.0f, seeds[s], s);
-    while (!queue.empty()) {
-        const auto [distance, t, side] = queue.top();
-        queue.pop();
-        if (sides[t] != no_side) continue;
-        sides[t] = side;
-        for (const uint32_t beyond : neighbours[t]) {
-            if (beyond == no_face || sides[beyond] != no_side) continue;
-            const double step = glm::length(centroids[beyond] - centroids[t]);
-            queue.emplace(distance + static_cast<float>(step), beyond, side);
-        }
-    }
+    const Walk walk = walk_from({seeds[0], seeds[1]}, neighbours, centroids);
+    std::vector<uint8_t> sides(neighbours.size());
+    for (size_t t = 0; t < sides.size(); ++t) sides[t] = static_cast<uint8_t>(walk.source[t]);
     return sides;
 }
 
@@ -140,6 +133,41 @@ std::vector<uint8_t> split_by_shape(const Patch& patch) {
         }
     }
     return sides;
+}
+
+void straighten(const FaceGraph& graph, const Patch& patch, std::vector<uint8_t>& sides) {
+    std::vector<uint32_t> border;
+    for (uint32_t t = 0; t < sides.size(); ++t) {
+        const auto is_other = [&](uint32_t beyond) { return beyond != no_face && sides[beyond] != sides[t]; };
+        if (std::any_of(patch.neighbours[t].begin(), patch.neighbours[t].end(), is_other)) border.push_back(t);
+    }
+    const Walk walk = walk_from(border, patch.neighbours, centroids(patch));
+    std::array<float, 2> deepest{0, 0};
+    for (size_t t = 0; t < sides.size(); ++t) deepest[sides[t]] = std::max(deepest[sides[t]], walk.distance[t]);
+    // The faces far from the border, the farthest at least, stay on their sides: node 0 and node 1.
+    constexpr float widest = 0.15f;  // the patch has area 1
+    const float width = std::min(widest, 0.6f * std::min(deepest[0], deepest[1]));
+    std::vector<uint32_t> node(sides.size());
+    uint32_t nodes = 2;
+    for (size_t t = 0; t < sides.size(); ++t) {
+        const bool is_core = walk.distance[t] > width || walk.distance[t] >= deepest[sides[t]];
+        node[t] = is_core ? sides[t] : nodes++;
+    }
+    MinCut cut(nodes);
+    constexpr double steps = 1e6;  // to a unit of length
+    constexpr double hidden = 0.02;  // what a cut on a crease counts, against a visible one
+    for (uint32_t t = 0; t < sides.size(); ++t) {
+        for (uint32_t k = 0; k < 3; ++k) {
+            const uint32_t beyond = patch.neighbours[t][k];
+            if (beyond == no_face || beyond < t || node[t] == node[beyond]) continue;
+            SeamLength length;
+            add_edge(graph, patch.faces[t], (graph.first_corners[patch.faces[t]] + k) % 3, length);
+            const double cost = (length.visible + hidden * length.all) / patch.unit;
+            cut.add_edge(node[t], node[beyond], std::llround(cost * steps));
+        }
+    }
+    const std::vector<bool> stays = cut.separate(0, 1);
+    for (size_t t = 0; t < sides.size(); ++t) sides[t] = stays[node[t]] ? 0 : 1;
 }
 
 void cut_between(const FaceGraph& graph, const Patch& patch, const std::vector<uint8_t>& sides, Seams& seams) {

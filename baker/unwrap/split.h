@@ -22,6 +22,10 @@ std::vector<Vec3> centroids(const Patch& patch);
 /// surface (after the variational shape approximation of Cohen-Steiner et al. 2004).
 std::vector<uint8_t> split_by_shape(const Patch& patch);
 
+/// Moves the border between two sides to where it shows least, not far from where it is: the minimum cut among the
+/// faces near it, in which creases are nearly free.
+void straighten(const FaceGraph& graph, const Patch& patch, std::vector<uint8_t>& sides);
+
 /// Cuts the edges between the sides.
 void cut_between(const FaceGraph& graph, const Patch& patch, const std::vector<uint8_t>& sides, Seams& seams);
 
