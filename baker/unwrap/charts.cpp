@@ -6,7 +6,7 @@
 
 #include "baker/unwrap/curvature.h"
 #include "baker/unwrap/join.h"
-#include "baker/unwrap/relax.h"
+#include "baker/unwrap/relief.h"
 #include "baker/unwrap/split.h"
 #include "baker/unwrap/try_chart.h"
 #include "runtime/base/error.h"
@@ -23,12 +23,24 @@ void stop_if_cancelled(const Progress& progress) {
 /// columns together.
 const double crease_cosine = std::cos(46 * pi / 180);
 
+/// A needle's normal is noise of its shape.
+bool is_needle(const FaceGraph& graph, uint32_t face) {
+    const auto& c = graph.corners[face];
+    double longest = 0;
+    for (size_t k = 0; k < 3; ++k) {
+        const Vec3 edge = graph.positions[c[(k + 1) % 3]] - graph.positions[c[k]];
+        longest = std::max(longest, glm::dot(edge, edge));
+    }
+    constexpr double needle_share = 1e-3;
+    return graph.areas[face] < needle_share * longest;
+}
+
 void cut_creases(const FaceGraph& graph, const std::vector<uint32_t>& faces, Seams& seams) {
     for (const uint32_t f : faces) {
         for (uint32_t k = 0; k < 3; ++k) {
             const uint32_t g = graph.neighbours[f][k];
-            if (g != no_face && !(glm::dot(graph.normals[f], graph.normals[g]) > crease_cosine))
-                set_seam(graph, f, k, true, seams);
+            if (g == no_face || g < f || glm::dot(graph.normals[f], graph.normals[g]) > crease_cosine) continue;
+            if (!is_needle(graph, f) && !is_needle(graph, g)) set_seam(graph, f, k, true, seams);
         }
     }
 }
@@ -63,13 +75,58 @@ std::vector<FlatChart> split_until_flat(const FaceGraph& graph, std::vector<std:
     return charts;
 }
 
-std::vector<FlatChart> cut_faces(const FaceGraph& graph, const std::vector<uint32_t>& faces,
-                                 const CutSettings& settings, const Progress& progress, Seams& seams) {
+double area_of(const FaceGraph& graph, const std::vector<uint32_t>& faces) {
+    double area = 0;
+    for (const uint32_t f : faces) area += graph.areas[f];
+    return area;
+}
+
+/// Rough ground has creases everywhere and is one chart all the same: tries to lay a piece flat as it is, with a few
+/// slits where it is nearly flat enough. `seams` are without creases, and get the slits when it succeeds.
+std::optional<FlatChart> try_with_creases(const FaceGraph& graph, const std::vector<uint32_t>& faces,
+                                          const DistortionBound& bound, Seams& seams) {
     std::vector<uint32_t> number(graph.corners.size());
-    std::vector<FlatChart> charts =
-        split_until_flat(graph, connected_parts(graph, seams, faces, number), settings, progress, seams);
-    join_charts(graph, settings, progress, seams, charts);
-    return charts;
+    Seams slit = seams;
+    constexpr int most_slits = 3;
+    constexpr double nearly = 1.5;  // times what the bound allows above an isometry
+    for (int i = 0; i <= most_slits; ++i) {
+        const Patch patch = build_patch(graph, slit, faces, number);
+        Attempt attempt = try_chart(graph, patch, bound);
+        if (attempt.chart) {
+            seams = std::move(slit);
+            return std::move(attempt.chart);
+        }
+        const std::vector<double> logarithms = conformal_logarithms(patch);
+        if (predicted_energy(patch, logarithms) - 4 > nearly * (bound.energy - 4)) return std::nullopt;
+        if (!cut_relief(graph, patch, logarithms, slit)) return std::nullopt;
+    }
+    return std::nullopt;
+}
+
+/// Cuts the creases, but not of pieces that lie flat without and would fall into one large part and crumbs.
+std::vector<std::vector<uint32_t>> cut_at_creases(const FaceGraph& graph, const std::vector<uint32_t>& faces,
+                                                  const CutSettings& settings, Seams& seams,
+                                                  std::vector<FlatChart>& charts) {
+    std::vector<uint32_t> number(graph.corners.size());
+    std::vector<std::vector<uint32_t>> result;
+    for (const std::vector<uint32_t>& piece : connected_parts(graph, seams, faces, number)) {
+        Seams creased = seams;
+        cut_creases(graph, piece, creased);
+        std::vector<std::vector<uint32_t>> parts = connected_parts(graph, creased, piece, number);
+        double largest = 0;
+        for (const auto& part : parts) largest = std::max(largest, area_of(graph, part));
+        constexpr double dominant_share = 0.6;
+        std::optional<FlatChart> chart;
+        if (parts.size() > 1 && largest > dominant_share * area_of(graph, piece))
+            chart = try_with_creases(graph, piece, settings.bound, seams);
+        if (chart) {
+            charts.push_back(std::move(*chart));
+            continue;
+        }
+        seams = std::move(creased);
+        std::move(parts.begin(), parts.end(), std::back_inserter(result));
+    }
+    return result;
 }
 
 }  // namespace
@@ -78,7 +135,7 @@ CutSettings cut_settings(const UnwrapSettings& settings) {
     const double excess = settings.stretch - 1;
     const auto bound = [](double e) { return DistortionBound{4 + 0.4 * e * e, 1 + e}; };
     const char* env = getenv("COMFORT");
-    return {bound(excess), bound((env ? atof(env) : 0.5) * excess), settings.quality};
+    return {bound(excess), bound((env ? atof(env) : 0.6) * excess), settings.quality};
 }
 
 std::vector<FlatChart> cut_into_charts(const FaceGraph& graph, const CutSettings& settings, const Progress& progress) {
@@ -92,8 +149,11 @@ std::vector<FlatChart> cut_into_charts(const FaceGraph& graph, const CutSettings
     }
     std::sort(faces.begin(), faces.end(), [&](uint32_t a, uint32_t b) { return graph.ranks[a] < graph.ranks[b]; });
     Seams seams(graph);
-    cut_creases(graph, faces, seams);
-    std::vector<FlatChart> charts = cut_faces(graph, faces, settings, progress, seams);
+    std::vector<FlatChart> charts;
+    std::vector<std::vector<uint32_t>> pieces = cut_at_creases(graph, faces, settings, seams, charts);
+    std::vector<FlatChart> flat = split_until_flat(graph, std::move(pieces), settings, progress, seams);
+    std::move(flat.begin(), flat.end(), std::back_inserter(charts));
+    join_charts(graph, settings, progress, seams, charts);
     std::move(slivers.begin(), slivers.end(), std::back_inserter(charts));
     return charts;
 }

@@ -40,6 +40,37 @@ std::vector<double> progress_along(const FlatChart& chart, const std::vector<std
     return along;
 }
 
+/// Pieces of a part that are much smaller than the parts join the neighbour with which they share most edges.
+void give_crumbs_away(const FaceGraph& graph, const FlatChart& chart,
+                      const std::vector<std::array<uint32_t, 3>>& neighbours, std::vector<uint32_t>& parts) {
+    const uint32_t part_count = *std::max_element(parts.begin(), parts.end()) + 1;
+    constexpr double crumb_share = 0.2;
+    const double crumb = crumb_share * chart.area / part_count;
+    std::vector<bool> is_seen(parts.size(), false);
+    for (uint32_t start = 0; start < parts.size(); ++start) {
+        if (is_seen[start]) continue;
+        is_seen[start] = true;
+        std::vector<uint32_t> piece{start};
+        std::vector<uint32_t> shared(part_count, 0);
+        double area = 0;
+        for (size_t i = 0; i < piece.size(); ++i) {
+            area += graph.areas[chart.faces[piece[i]]];
+            for (const uint32_t beyond : neighbours[piece[i]]) {
+                if (beyond == no_face) continue;
+                if (parts[beyond] != parts[start]) {
+                    ++shared[parts[beyond]];
+                } else if (!is_seen[beyond]) {
+                    is_seen[beyond] = true;
+                    piece.push_back(beyond);
+                }
+            }
+        }
+        const auto best = std::max_element(shared.begin(), shared.end());
+        if (area >= crumb || *best == 0) continue;
+        for (const uint32_t t : piece) parts[t] = static_cast<uint32_t>(best - shared.begin());
+    }
+}
+
 struct Division {
     std::vector<FlatChart> pieces;
     double cost = 0;  ///< room on the map and seams, square metres
@@ -84,6 +115,7 @@ Division divide_evenly(const FaceGraph& graph, const FlatChart& chart, uint32_t 
         division.cost += best_worth;
         for (uint32_t t = 0; t < along.size(); ++t) parts[t] += along[t] >= best_at ? 1 : 0;
     }
+    give_crumbs_away(graph, chart, neighbours, parts);
     division.pieces = divide(graph, chart, parts);
     for (const FlatChart& piece : division.pieces) division.cost += piece.need;
     return division;

@@ -135,6 +135,18 @@ std::vector<uint8_t> split_by_shape(const Patch& patch) {
     return sides;
 }
 
+namespace {
+
+/// The distance up to which there are `count` triangles at most.
+float nearest(std::vector<float> distances, size_t count) {
+    if (count >= distances.size()) return INFINITY;
+    const auto at = distances.begin() + static_cast<std::ptrdiff_t>(count);
+    std::nth_element(distances.begin(), at, distances.end());
+    return *at;
+}
+
+}  // namespace
+
 void straighten(const FaceGraph& graph, const Patch& patch, std::vector<uint8_t>& sides) {
     std::vector<uint32_t> border;
     for (uint32_t t = 0; t < sides.size(); ++t) {
@@ -145,8 +157,9 @@ void straighten(const FaceGraph& graph, const Patch& patch, std::vector<uint8_t>
     std::array<float, 2> deepest{0, 0};
     for (size_t t = 0; t < sides.size(); ++t) deepest[sides[t]] = std::max(deepest[sides[t]], walk.distance[t]);
     // The faces far from the border, the farthest at least, stay on their sides: node 0 and node 1.
-    constexpr float widest = 0.15f;  // the patch has area 1
-    const float width = std::min(widest, 0.6f * std::min(deepest[0], deepest[1]));
+    constexpr float widest = 0.15f;     // the patch has area 1
+    constexpr size_t most_moved = 6000;  // faces; finding the cut takes more than linear time
+    const float width = std::min({widest, 0.6f * std::min(deepest[0], deepest[1]), nearest(walk.distance, most_moved)});
     std::vector<uint32_t> node(sides.size());
     uint32_t nodes = 2;
     for (size_t t = 0; t < sides.size(); ++t) {
