@@ -81,26 +81,17 @@ double area_of(const FaceGraph& graph, const std::vector<uint32_t>& faces) {
     return area;
 }
 
-/// Rough ground has creases everywhere and is one chart all the same: tries to lay a piece flat as it is, with a few
-/// slits where it is nearly flat enough. `seams` are without creases, and get the slits when it succeeds.
-std::optional<FlatChart> try_with_creases(const FaceGraph& graph, const std::vector<uint32_t>& faces,
-                                          const DistortionBound& bound, Seams& seams) {
-    std::vector<uint32_t> number(graph.corners.size());
+/// Rough ground has creases everywhere and is one chart all the same. `seams` are without the creases, and get the slits
+/// that it takes.
+std::optional<FlatChart> lay_flat_whole(const FaceGraph& graph, const std::vector<uint32_t>& faces,
+                                        const DistortionBound& bound, std::vector<uint32_t>& number, Seams& seams) {
+    const Patch whole = build_patch(graph, seams, faces, number);
+    Attempt attempt = try_chart(graph, whole, bound);
+    if (attempt.chart) return std::move(attempt.chart);
     Seams slit = seams;
-    constexpr int most_slits = 3;
-    constexpr double nearly = 1.5;  // times what the bound allows above an isometry
-    for (int i = 0; i <= most_slits; ++i) {
-        const Patch patch = build_patch(graph, slit, faces, number);
-        Attempt attempt = try_chart(graph, patch, bound);
-        if (attempt.chart) {
-            seams = std::move(slit);
-            return std::move(attempt.chart);
-        }
-        const std::vector<double> logarithms = conformal_logarithms(patch);
-        if (predicted_energy(patch, logarithms) - 4 > nearly * (bound.energy - 4)) return std::nullopt;
-        if (!cut_relief(graph, patch, logarithms, slit)) return std::nullopt;
-    }
-    return std::nullopt;
+    std::optional<FlatChart> chart = relieve(graph, whole, bound, number, slit);
+    if (chart) seams = std::move(slit);
+    return chart;
 }
 
 /// Cuts the creases, but not of pieces that lie flat without and would fall into one large part and crumbs.
@@ -118,7 +109,7 @@ std::vector<std::vector<uint32_t>> cut_at_creases(const FaceGraph& graph, const 
         constexpr double dominant_share = 0.6;
         std::optional<FlatChart> chart;
         if (parts.size() > 1 && largest > dominant_share * area_of(graph, piece))
-            chart = try_with_creases(graph, piece, settings.bound, seams);
+            chart = lay_flat_whole(graph, piece, settings.bound, number, seams);
         if (chart) {
             charts.push_back(std::move(*chart));
             continue;

@@ -5,7 +5,9 @@
 #include <queue>
 #include <tuple>
 
+#include "baker/unwrap/curvature.h"
 #include "baker/unwrap/seam_cost.h"
+#include "baker/unwrap/try_chart.h"
 
 namespace surimi {
 namespace {
@@ -65,25 +67,82 @@ Ways ways_from_boundary(const FaceGraph& graph, const Patch& patch) {
     return ways;
 }
 
-}  // namespace
+/// Vertices whose scale is below 1 and below that of all around them, the smallest scale first: there the surface is
+/// domed, and a slit opens. Where the scale is above 1 a slit would close over itself.
+std::vector<uint32_t> find_domes(const Patch& patch, const std::vector<double>& logarithms) {
+    std::vector<bool> is_lowest(logarithms.size(), true);
+    for (const auto& t : patch.triangles)
+        for (size_t k = 0; k < 3; ++k)
+            for (size_t i = 1; i < 3; ++i)
+                if (!(logarithms[t[k]] < logarithms[t[(k + i) % 3]])) is_lowest[t[k]] = false;
+    std::vector<uint32_t> domes;
+    for (uint32_t v = 0; v < logarithms.size(); ++v)
+        if (is_lowest[v] && logarithms[v] < 0) domes.push_back(v);
+    std::sort(domes.begin(), domes.end(), [&](uint32_t a, uint32_t b) {
+        return std::make_tuple(static_cast<float>(logarithms[a]), a) < std::make_tuple(static_cast<float>(logarithms[b]), b);
+    });
+    return domes;
+}
 
-bool cut_relief(const FaceGraph& graph, const Patch& patch, const std::vector<double>& logarithms, Seams& seams) {
-    const Ways ways = ways_from_boundary(graph, patch);
-    // A slit takes the scale to 1 at its end and along its way. Where the scale is below 1 the surface is domed and the
-    // slit opens; elsewhere it would close over itself.
-    uint32_t best = no_corner;
-    float most = 0;
-    for (uint32_t v = 0; v < patch.positions.size(); ++v) {
-        if (ways.arrival[v] == no_corner || !(logarithms[v] < 0)) continue;
-        const auto gain = static_cast<float>(logarithms[v] * logarithms[v]) / (0.02f + ways.cost[v]);
-        if (gain > most) most = gain, best = v;
-    }
-    if (best == no_corner) return false;
-    for (uint32_t v = best; ways.arrival[v] != no_corner; v = ways.from[v]) {
+void cut_way(const FaceGraph& graph, const Patch& patch, const Ways& ways, uint32_t end, Seams& seams) {
+    for (uint32_t v = end; ways.arrival[v] != no_corner; v = ways.from[v]) {
         const uint32_t face = patch.faces[ways.arrival[v] / 3];
         set_seam(graph, face, (graph.first_corners[face] + ways.arrival[v] % 3) % 3, true, seams);
     }
-    return true;
+}
+
+/// The points of the same faces' vertices in another patch, which is cut further.
+std::vector<Vec2> carry_over(const Patch& from, const std::vector<Vec2>& points, const Patch& to) {
+    std::vector<Vec2> result(to.positions.size());
+    for (size_t t = 0; t < to.triangles.size(); ++t)
+        for (size_t k = 0; k < 3; ++k) result[to.triangles[t][k]] = points[from.triangles[t][k]];
+    return result;
+}
+
+}  // namespace
+
+std::optional<FlatChart> relieve(const FaceGraph& graph, const Patch& whole, const DistortionBound& bound,
+                                 std::vector<uint32_t>& number, Seams& seams) {
+    constexpr double nearly = 1.5;  // times what the bound allows above an isometry
+    const DistortionBound loose{4 + nearly * (bound.energy - 4), 1 + nearly * (bound.stretch - 1)};
+    const std::vector<double> logarithms = conformal_logarithms(whole);
+    if (!(predicted_energy(whole, logarithms) <= loose.energy)) return std::nullopt;
+    std::optional<Flattening> flat = flatten_within(whole, logarithms, loose);
+    if (!flat) return std::nullopt;
+
+    Patch patch = whole;
+    std::vector<uint32_t> ends;
+    for (const uint32_t v : find_domes(whole, logarithms)) {
+        constexpr double apart = 0.15;  // slits side by side do the same work twice; the patch has area 1
+        const auto is_near = [&](uint32_t other) {
+            return glm::length(whole.positions[other] - whole.positions[v]) < apart;
+        };
+        if (std::none_of(ends.begin(), ends.end(), is_near)) ends.push_back(v);
+    }
+    constexpr size_t most_slits = 16;
+    ends.resize(std::min(ends.size(), most_slits));
+    const Ways ways = ways_from_boundary(graph, whole);
+    for (const uint32_t end : ends) {
+        Seams slit = seams;
+        cut_way(graph, whole, ways, end, slit);
+        Patch opened = build_patch(graph, slit, whole.faces, number);
+        Flattening relaxed{carry_over(patch, flat->points, opened), {}};
+        Laplacian laplacian(opened);
+        relax(opened, bound.energy, laplacian, relaxed.points);
+        relaxed.distortion = measure_distortion(opened, relaxed.points);
+        constexpr double least_gain = 0.005;  // of what is above an isometry
+        if (!(relaxed.distortion.energy - 4 < (1 - least_gain) * (flat->distortion.energy - 4))) continue;
+        FlatChart chart = make_chart(graph, opened, relaxed);
+        if (find_overlap(chart)) continue;
+        if (is_within(relaxed.distortion, bound)) {
+            seams = std::move(slit);
+            return chart;
+        }
+        patch = std::move(opened);
+        flat = std::move(relaxed);
+        seams = std::move(slit);
+    }
+    return std::nullopt;
 }
 
 }  // namespace surimi

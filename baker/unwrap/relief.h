@@ -2,13 +2,19 @@
 // Slits that let a patch lie flatter: cuts from its boundary to where the curvature gathers, which leave it in one piece.
 #pragma once
 
+#include <optional>
+
 #include "baker/unwrap/distortion.h"
+#include "baker/unwrap/flatten.h"
 #include "baker/unwrap/patch.h"
 
 namespace surimi {
 
-/// Cuts the slit that saves the most predicted energy for its visible length, along edges, creases nearly for free.
-/// `logarithms` are those of the patch. False when no place is curved enough to be worth one; then nothing is cut.
-bool cut_relief(const FaceGraph& graph, const Patch& patch, const std::vector<double>& logarithms, Seams& seams);
+/// The patch as one chart within the bound, when slits can bring it there that is nearly there without: each leads from
+/// the boundary to where the surface is domed, along edges, on the way that shows least (creases are nearly free), and
+/// stays when it lowers the energy and opens without overlap. `seams` gets the slits; when nothing is returned, it may
+/// hold some of them. `number` as for build_patch.
+std::optional<FlatChart> relieve(const FaceGraph& graph, const Patch& whole, const DistortionBound& bound,
+                                 std::vector<uint32_t>& number, Seams& seams);
 
 }  // namespace surimi

@@ -12,6 +12,16 @@ constexpr double forecast_tolerance = 2;
 
 }  // namespace
 
+std::optional<std::array<uint32_t, 2>> find_overlap(const FlatChart& chart) {
+    // As fine as float texture coordinates are on a quarter of the map; contacts of a few such units are left
+    // to round_chart, which knows the final coordinates.
+    constexpr double units = 1 << 22;
+    constexpr double margin = 3;
+    const auto pairs = overlapping_pairs(rounded_triangles(chart, units), margin, 64);
+    if (pairs.empty()) return std::nullopt;
+    return pairs[pairs.size() / 2];
+}
+
 Attempt try_chart(const FaceGraph& graph, const Patch& patch, const DistortionBound& bound) {
     Attempt attempt;
     const std::vector<double> logarithms = conformal_logarithms(patch);
@@ -19,15 +29,10 @@ Attempt try_chart(const FaceGraph& graph, const Patch& patch, const DistortionBo
     const std::optional<Flattening> flat = flatten_within(patch, logarithms, bound);
     if (!flat) return attempt;
     FlatChart chart = make_chart(graph, patch, *flat);
-    // As fine as float texture coordinates are on a quarter of the map; contacts of a few such units are left
-    // to round_chart, which knows the final coordinates.
-    constexpr double units = 1 << 22;
-    constexpr double margin = 3;
-    const auto pairs = overlapping_pairs(rounded_triangles(chart, units), margin, 64);
-    if (pairs.empty())
-        attempt.chart = std::move(chart);
+    if (const auto overlap = find_overlap(chart))
+        attempt.apart = *overlap;
     else
-        attempt.apart = pairs[pairs.size() / 2];
+        attempt.chart = std::move(chart);
     return attempt;
 }
 
