@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "baker/unwrap/curvature.h"
 #include "baker/unwrap/join.h"
-#include "baker/unwrap/relief.h"
 #include "baker/unwrap/split.h"
 #include "baker/unwrap/try_chart.h"
 #include "runtime/base/error.h"
@@ -59,8 +57,8 @@ std::vector<FlatChart> split_until_flat(const FaceGraph& graph, std::vector<std:
             attempts[i] = try_chart(graph, patch, is_whole ? settings.bound : settings.comfort);
             if (attempts[i].chart) return;
             const bool overlaps = attempts[i].apart[0] != attempts[i].apart[1];
-            std::vector<uint8_t> sides = overlaps ? split_between(patch.neighbours, centroids(patch), attempts[i].apart)
-                                                  : split_by_shape(patch);
+            std::vector<uint8_t> sides =
+                overlaps ? split_between(patch.neighbours, centroids(patch), attempts[i].apart) : split_by_shape(patch);
             straighten(graph, patch, sides);
             cut_between(graph, patch, sides, seams);
             attempts[i].parts = connected_parts(graph, seams, patch.faces, number);
@@ -81,20 +79,8 @@ double area_of(const FaceGraph& graph, const std::vector<uint32_t>& faces) {
     return area;
 }
 
-/// Rough ground has creases everywhere and is one chart all the same. `seams` are without the creases, and get the slits
-/// that it takes.
-std::optional<FlatChart> lay_flat_whole(const FaceGraph& graph, const std::vector<uint32_t>& faces,
-                                        const DistortionBound& bound, std::vector<uint32_t>& number, Seams& seams) {
-    const Patch whole = build_patch(graph, seams, faces, number);
-    Attempt attempt = try_chart(graph, whole, bound);
-    if (attempt.chart) return std::move(attempt.chart);
-    Seams slit = seams;
-    std::optional<FlatChart> chart = relieve(graph, whole, bound, number, slit);
-    if (chart) seams = std::move(slit);
-    return chart;
-}
-
-/// Cuts the creases, but not of pieces that lie flat without and would fall into one large part and crumbs.
+/// Cuts the creases, but not of pieces that lie flat without and would fall into one large part and crumbs: rough
+/// ground has creases everywhere, and is one chart all the same.
 std::vector<std::vector<uint32_t>> cut_at_creases(const FaceGraph& graph, const std::vector<uint32_t>& faces,
                                                   const CutSettings& settings, Seams& seams,
                                                   std::vector<FlatChart>& charts) {
@@ -109,7 +95,7 @@ std::vector<std::vector<uint32_t>> cut_at_creases(const FaceGraph& graph, const 
         constexpr double dominant_share = 0.6;
         std::optional<FlatChart> chart;
         if (parts.size() > 1 && largest > dominant_share * area_of(graph, piece))
-            chart = lay_flat_whole(graph, piece, settings.bound, number, seams);
+            chart = try_chart(graph, build_patch(graph, seams, piece, number), settings.patience).chart;
         if (chart) {
             charts.push_back(std::move(*chart));
             continue;
@@ -125,8 +111,9 @@ std::vector<std::vector<uint32_t>> cut_at_creases(const FaceGraph& graph, const 
 CutSettings cut_settings(const UnwrapSettings& settings) {
     const double excess = settings.stretch - 1;
     const auto bound = [](double e) { return DistortionBound{4 + 0.4 * e * e, 1 + e}; };
-    const char* env = getenv("COMFORT");
-    return {bound(excess), bound((env ? atof(env) : 0.6) * excess), settings.quality};
+    constexpr double comfort = 0.6;
+    constexpr double patience = 1.06;
+    return {bound(excess), bound(comfort * excess), bound(patience * excess), settings.quality};
 }
 
 std::vector<FlatChart> cut_into_charts(const FaceGraph& graph, const CutSettings& settings, const Progress& progress) {

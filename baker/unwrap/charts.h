@@ -14,8 +14,9 @@
 namespace surimi {
 
 struct CutSettings {
-    DistortionBound bound;    ///< of every chart
-    DistortionBound comfort;  ///< pieces above it are split further, and joined again only where that pays
+    DistortionBound bound;     ///< of every chart
+    DistortionBound comfort;   ///< pieces above it are split further, and joined again only where that pays
+    DistortionBound patience;  ///< of a piece that would otherwise fall into crumbs
     UvQuality quality = UvQuality::medium;
 };
 

@@ -8,9 +8,9 @@
 
 namespace surimi {
 
-/// The logarithm of the scale, at each vertex, of the conformal map to the plane that keeps the lengths of the boundary:
-/// 0 there, the solution of Poisson's equation with the Gauss curvature inside (M44). Of all conformal maps it has the
-/// smallest range of scales. Empty for closed patches, and where rounding spoils the system.
+/// The logarithm of the scale, at each vertex, of the conformal map to the plane that keeps the lengths of the
+/// boundary: 0 there, the solution of Poisson's equation with the Gauss curvature inside (M44). Of all conformal maps
+/// it has the smallest range of scales. Empty for closed patches, and where rounding spoils the system.
 std::vector<double> conformal_logarithms(const Patch& patch);
 
 /// About the least mean symmetric Dirichlet energy of the patch in the plane (M44), for a fraction of the time that it

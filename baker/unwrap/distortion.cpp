@@ -38,7 +38,8 @@ Distortion measure_distortion(const Patch& patch, const std::vector<Vec2>& point
         }
         const double sum = glm::dot(j[0], j[0]) + glm::dot(j[1], j[1]);
         // Largest singular value from the sum and difference of both, the smaller one from the product.
-        const double larger = 0.5 * (std::sqrt(sum + 2 * determinant) + std::sqrt(std::max(0.0, sum - 2 * determinant)));
+        const double larger =
+            0.5 * (std::sqrt(sum + 2 * determinant) + std::sqrt(std::max(0.0, sum - 2 * determinant)));
         shares.push_back({determinant / larger, patch.areas[t]});
         flat_area += patch.areas[t] * determinant;
         squares += patch.areas[t] * sum;

@@ -23,8 +23,8 @@ struct FlatChart {
     double area = 0;                                 ///< of the faces in space, square metres
     double flat_area = 0;                            ///< of the flat triangles
     double stretch = 1;                              ///< see Distortion
-    double need = 0;                                 ///< room that it takes on a map, square metres: stretched areas want
-                                                     ///< more texels, and its hollows are hard to fill
+    double need = 0;  ///< room that it takes on a map, square metres: stretched areas want
+                      ///< more texels, and its hollows are hard to fill
     bool is_sliver = false;
 };
 

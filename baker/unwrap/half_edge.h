@@ -24,13 +24,13 @@ struct FaceGraph {
     std::vector<double> areas;                        ///< square metres
     std::vector<uint32_t> ranks;         ///< of each face: its place in an order that follows from the geometry alone
     std::vector<uint8_t> first_corners;  ///< of each face: the corner at its lowest place, where such an order starts
-    std::vector<bool> is_sliver;  ///< no direction to speak of: area below 2e-12 of the longest edge squared.
-                                  ///< Has no neighbours
+    std::vector<bool> is_sliver;         ///< no direction to speak of: area below 2e-12 of the longest edge squared.
+                                         ///< Has no neighbours
 };
 
 /// Welds vertices at identical places (-0.0 is 0.0) and finds the neighbours. What is found, and everything that walks
-/// faces by rank, is the same for any order of the surface's triangles, vertices and corners. Places that differ in the last
-/// digit stay apart: the file keeps them apart, and so does everyone who looks for seams in it.
+/// faces by rank, is the same for any order of the surface's triangles, vertices and corners. Places that differ in the
+/// last digit stay apart: the file keeps them apart, and so does everyone who looks for seams in it.
 FaceGraph build_face_graph(const Surface& surface);
 
 }  // namespace surimi

@@ -76,7 +76,8 @@ class Joiner {
     void offer(Run run) {
         if (!is_worth_a_try(run)) return;
         const auto number = static_cast<int64_t>(runs_.size());
-        queue_.emplace(static_cast<float>(run.length.visible), static_cast<float>(run.length.all), -number, runs_.size());
+        queue_.emplace(static_cast<float>(run.length.visible), static_cast<float>(run.length.all), -number,
+                       runs_.size());
         runs_.push_back(std::move(run));
     }
 

@@ -14,8 +14,9 @@ using Matrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 }  // namespace
 
 struct Laplacian::Factorisation {
-    Matrix matrix;               ///< the lower triangle
-    std::vector<uint32_t> slots; ///< in its values, of the pairs of corners (0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)
+    Matrix matrix;  ///< the lower triangle
+    std::vector<uint32_t>
+        slots;  ///< in its values, of the pairs of corners (0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)
     Eigen::SimplicialLDLT<Matrix, Eigen::Lower, Eigen::AMDOrdering<int>> solver;
 };
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "baker/unwrap/seam_cost.h"
 
-#include <cstdlib>
-
 namespace surimi {
 namespace {
 
@@ -10,7 +8,7 @@ namespace {
 const double visible_cosine = std::cos(40 * pi / 180);
 
 /// Share of a chart's texels that a visible seam as long as the root of its area is worth. (M45 and docs/decisions.md)
-const double texels_for_visible = getenv("LAMBDA") ? atof(getenv("LAMBDA")) : 0.2;
+constexpr double texels_for_visible = 0.2;
 /// And one that is not seen: it still needs a gutter.
 constexpr double texels_for_hidden = 0.01;
 

@@ -29,7 +29,8 @@ std::vector<double> progress_along(const FlatChart& chart, const std::vector<std
     std::vector<double> along(count);
     const size_t axis = chart.extent.x >= chart.extent.y ? 0 : 1;
     for (uint32_t t = 0; t < count; ++t)
-        along[t] = centroid(chart, t)[static_cast<glm::length_t>(axis)] / chart.extent[static_cast<glm::length_t>(axis)];
+        along[t] =
+            centroid(chart, t)[static_cast<glm::length_t>(axis)] / chart.extent[static_cast<glm::length_t>(axis)];
     if (!is_bent) return along;
     std::vector<Vec3> centroids;
     for (uint32_t t = 0; t < count; ++t) centroids.emplace_back(centroid(chart, t), 0.0);

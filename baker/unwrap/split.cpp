@@ -157,7 +157,7 @@ void straighten(const FaceGraph& graph, const Patch& patch, std::vector<uint8_t>
     std::array<float, 2> deepest{0, 0};
     for (size_t t = 0; t < sides.size(); ++t) deepest[sides[t]] = std::max(deepest[sides[t]], walk.distance[t]);
     // The faces far from the border, the farthest at least, stay on their sides: node 0 and node 1.
-    constexpr float widest = 0.15f;     // the patch has area 1
+    constexpr float widest = 0.15f;      // the patch has area 1
     constexpr size_t most_moved = 6000;  // faces; finding the cut takes more than linear time
     const float width = std::min({widest, 0.6f * std::min(deepest[0], deepest[1]), nearest(walk.distance, most_moved)});
     std::vector<uint32_t> node(sides.size());
@@ -167,7 +167,7 @@ void straighten(const FaceGraph& graph, const Patch& patch, std::vector<uint8_t>
         node[t] = is_core ? sides[t] : nodes++;
     }
     MinCut cut(nodes);
-    constexpr double steps = 1e6;  // to a unit of length
+    constexpr double steps = 1e6;    // to a unit of length
     constexpr double hidden = 0.02;  // what a cut on a crease counts, against a visible one
     for (uint32_t t = 0; t < sides.size(); ++t) {
         for (uint32_t k = 0; k < 3; ++k) {

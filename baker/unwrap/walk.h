@@ -11,9 +11,9 @@
 namespace surimi {
 
 struct Walk {
-    std::vector<float> distance;    ///< of each triangle from the nearest source; infinite where none is reached
-    std::vector<uint32_t> source;   ///< that source's position in `sources`
-    uint32_t last = 0;              ///< the farthest triangle
+    std::vector<float> distance;   ///< of each triangle from the nearest source; infinite where none is reached
+    std::vector<uint32_t> source;  ///< that source's position in `sources`
+    uint32_t last = 0;             ///< the farthest triangle
 };
 
 /// The shortest ways from some triangles to all others (Dijkstra 1959). `neighbours`: number beyond each edge, or
