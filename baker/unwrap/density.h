@@ -28,12 +28,13 @@ double density_factor(const ChartWeight& weight);
 /// flux that leaves them, shadows left out (cosines at both ends, inverse square), and the room around the monitors is
 /// never further away than three of those. A chart whose distance, averaged over its area, is x times that far gets
 /// the density times x^(-4/3). That minimises the squared error of the light: irradiance goes as x^-2, and the share
-/// of texels with a shadow's edge as 1 / density. A plane without end then takes a bounded share of the map.
+/// of texels with a shadow's edge as 1 / density. A plane without end then takes a bounded share of the map. Where all
+/// that is far would still take more than half of the texels, the exponent grows until it does not, up to 4.
 /// Without monitors, or where none lights anything, there are no weights but the user's.
 ///
-/// Slivers get a token of their own and no weight. Near-linear in the number of triangles. Measured at 1024 x 1024,
-/// texels a metre without weights, with the rule for surfaces that was here before, and with this one: home-theater
-/// TODO.
+/// Slivers get a token of their own and no weight. Near-linear in the number of triangles: 0.5 us each on one core.
+/// Measured at 1024 x 1024, texels a metre in the room with the rule for whole surfaces that was here before, and now:
+/// home-theater 51.2, 59.9; garage 59.5, 69.4; living-room 67.3, 73.0; classroom 25.1, 27.2; veach-ajar 41.3, 45.7.
 std::vector<ChartWeight> weigh_charts(const Scene& scene, const std::vector<FlatChart>& charts,
                                       const std::vector<double>& scales);
 

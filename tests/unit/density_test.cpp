@@ -46,6 +46,7 @@ const Quad back_of_screen = quad({1, 3, 1}, {-2, 0, 0}, {0, 0, 1});
 const Quad floor_of_room = quad({-3, -3, 0}, {6, 0, 0}, {0, 6, 0});
 const Quad wall_behind = quad({-3, 3.1, 0}, {6, 0, 0}, {0, 0, 3});  // faces -y as well
 const Quad ground = quad({-100, -100, -1}, {200, 0, 0}, {0, 200, 0});
+const Quad room_ceiling = quad({-3, 3, 3}, {6, 0, 0}, {0, -6, 0});  // faces down
 const Quad underside = quad({-3, 3, -0.1}, {6, 0, 0}, {0, -6, 0});  // faces down
 
 Scene lit_scene(const std::vector<Surface>& surfaces, const std::vector<Monitor>& monitors) {
@@ -84,11 +85,11 @@ TEST(UnwrapDensity, FarGroundDoesNotEatTheRoom) {
     EXPECT_EQ(atlas.weights[1].surface, 2u);
     EXPECT_EQ(atlas.weights[1].cause, DensityCause::far);
     EXPECT_NEAR(density(atlas, 2, 0), atlas.weights[1].least, 1e-9);
-    EXPECT_LT(atlas.weights[1].texel_share, 0.7);
+    EXPECT_LE(atlas.weights[1].texel_share, 0.5);
 }
 
 TEST(UnwrapDensity, APlaneWithoutEndTakesABoundedShare) {
-    double share = 1;
+    double share = 0.51;
     for (const double side : {100.0, 1000.0, 10000.0}) {
         const Scene scene =
             lit_scene({surface_of("floor", {floor_of_room}),
@@ -99,7 +100,7 @@ TEST(UnwrapDensity, APlaneWithoutEndTakesABoundedShare) {
         EXPECT_LT(weights[0].texel_share, share);
         share = weights[0].texel_share;
     }
-    EXPECT_LT(share, 0.05);
+    EXPECT_LT(share, 0.2);
 }
 
 TEST(UnwrapDensity, ChartsOfOneMeshAreWeighedOneByOne) {
@@ -151,14 +152,19 @@ TEST(UnwrapDensity, UnitsDoNotMatter) {
 }
 
 TEST(UnwrapDensity, ThousandsOfPanelsWeighAsTheirWall) {
-    std::vector<Quad> panels;
-    for (int i = 0; i < 60; ++i)
-        for (int j = 0; j < 30; ++j)
-            panels.push_back(quad({-1 + i / 30.0, 3, 1 + j / 30.0}, {1 / 30.0, 0, 0}, {0, 0, 1 / 30.0}));
-    const std::vector<Surface> surfaces{surface_of("all", {floor_of_room, ground})};
-    const double one = density(unwrap(lit_scene(surfaces, {monitor_of({screen})}), square(256), {}), 0, 2);
-    const double many = density(unwrap(lit_scene(surfaces, {monitor_of(panels)}), square(256), {}), 0, 2);
-    EXPECT_NEAR(many, one, 0.1 * one);
+    const auto ground_density = [](int rows) {  // of the screen in 2 n x n panels
+        std::vector<Quad> panels;
+        const double side = 1.0 / rows;
+        for (int i = 0; i < 2 * rows; ++i)
+            for (int j = 0; j < rows; ++j)
+                panels.push_back(quad({-1 + i * side, 3, 1 + j * side}, {side, 0, 0}, {0, 0, side}));
+        const std::vector<Surface> surfaces{surface_of("all", {floor_of_room, room_ceiling, ground})};
+        return density(unwrap(lit_scene(surfaces, {monitor_of(panels)}), square(256), {}), 0, 4);
+    };
+    const double few = ground_density(5);    // each counts
+    const double many = ground_density(40);  // 64 stand for 3200
+    EXPECT_LT(few, 0.2);
+    EXPECT_NEAR(many, few, 0.1 * few);
 }
 
 TEST(UnwrapDensity, TheWishOfTheUserMultiplies) {
@@ -198,12 +204,12 @@ TEST(UnwrapReach, OneCornerInFrontIsEnough) {
     EXPECT_FALSE(reaches(scene, 0));
     scene.surfaces[0].positions[0].y = 2.99;
     EXPECT_TRUE(reaches(scene, 0));
-    // A wall that looks up past the screen: its plane has to sink below the screen's upper edge.
-    const Quad tilted = quad({-3, 1, 0}, {6, 0, 0}, {0, -1, 1});
-    scene = lit_scene({surface_of("wall", {tilted})}, {monitor_of({screen})});
-    EXPECT_TRUE(reaches(scene, 0));
-    scene = lit_scene({surface_of("wall", {quad({3, 1, 0}, {-6, 0, 0}, {0, -1, 1})})}, {monitor_of({screen})});
-    EXPECT_FALSE(reaches(scene, 0)) << "its other side";
+    // A floor under the screen, sloping: only where its plane passes below a corner of the screen it sees light.
+    for (const double rise : {0.9, 1.1}) {
+        const Quad slope = quad({-3, 1, 0}, {6, 0, 0}, {0, 1, rise});  // at the screen, 2 m on, it is at 2 * rise
+        scene = lit_scene({surface_of("slope", {slope})}, {monitor_of({screen})});
+        EXPECT_EQ(reaches(scene, 0), rise < 1) << rise;
+    }
 }
 
 /// Random triangles and panels: if any two sample points see each other's front, the triangle is reached, and if it is
