@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "baker/cli/commands.h"
+#include "baker/cli/density_summary.h"
 #include "baker/cli/options.h"
 #include "baker/cli/progress.h"
 #include "baker/write/output.h"
@@ -34,9 +35,7 @@ void print_summary(const Scene& scene, const Bake& bake) {
                    monitor.name, count(state, TexelState::covered), count(state, TexelState::unlit),
                    count(state, TexelState::filled), count(state, TexelState::empty));
     }
-    for (const DensityCap& cap : bake.atlas.caps)
-        fmt::print(stderr, "note: {} has {:.3g} of the density: {}\n", scene.surfaces[cap.surface].name, cap.factor,
-                   cap.reason);
+    print_density_weights(bake.atlas);
     for (const std::string& warning : bake.warnings) fmt::print(stderr, "warning: {}\n", warning);
 }
 

@@ -85,6 +85,21 @@ void read_monitor(const toml::table& table, const Place& place, MonitorRequest& 
     request.config_rectangles.push_back(monitor);
 }
 
+TexelScale texel_scale_of(const toml::table& table, const Place& place) {
+    check_keys(table, {"node", "material", "scale"}, place);
+    TexelScale wish;
+    if (const toml::node* node = table.get("node")) wish.node = value_of<std::string>(*node, "node", place);
+    if (const toml::node* node = table.get("material")) wish.material = value_of<std::string>(*node, "material", place);
+    if (wish.node.empty() && wish.material.empty())
+        place.fail(table, "a texel_scale needs \"node\" or \"material\", the name or a pattern");
+    const toml::node* scale = table.get("scale");
+    if (!scale) place.fail(table, "a texel_scale needs \"scale\", texels a metre over the usual");
+    wish.scale = value_of<double>(*scale, "scale", place);
+    if (!(wish.scale >= least_texel_scale && wish.scale <= largest_texel_scale))
+        place.fail(*scale, "\"scale\" must be from 0.001 to 1000");
+    return wish;
+}
+
 void read_size(const toml::node& node, const Place& place, UnwrapSettings& settings) {
     if (const toml::array* array = node.as_array()) {
         if (array->size() != 2) place.fail(node, "\"size\" must be a number or [width, height]");
@@ -95,6 +110,17 @@ void read_size(const toml::node& node, const Place& place, UnwrapSettings& setti
     }
 }
 
+std::vector<const toml::table*> tables_of(const toml::node& node, const std::string& key, const Place& place) {
+    std::vector<const toml::table*> tables;
+    const toml::array* array = node.as_array();
+    if (!array) place.fail(node, fmt::format("\"{0}\" is written as [[{0}]]", key));
+    for (const toml::node& item : *array) {
+        if (!item.is_table()) place.fail(item, fmt::format("\"{0}\" is written as [[{0}]]", key));
+        tables.push_back(item.as_table());
+    }
+    return tables;
+}
+
 void read_key(const std::string& key, const toml::node& node, const Place& place, Config& config) {
     if (key == "size") read_size(node, place, config.bake.unwrap);
     if (key == "density") config.bake.unwrap.texels_per_metre = value_of<double>(node, key, place);
@@ -103,14 +129,11 @@ void read_key(const std::string& key, const toml::node& node, const Place& place
     if (key == "samples") config.bake.gather.samples = value_of<int>(node, key, place);
     if (key == "seed") config.bake.gather.seed = static_cast<uint64_t>(value_of<int64_t>(node, key, place));
     if (key == "threads") config.threads = value_of<int>(node, key, place);
-    if (key == "monitor") {
-        const toml::array* array = node.as_array();
-        if (!array) place.fail(node, "monitors are written as [[monitor]]");
-        for (const toml::node& item : *array) {
-            if (!item.is_table()) place.fail(item, "monitors are written as [[monitor]]");
-            read_monitor(*item.as_table(), place, config.monitors);
-        }
-    }
+    if (key == "monitor")
+        for (const toml::table* item : tables_of(node, key, place)) read_monitor(*item, place, config.monitors);
+    if (key == "texel_scale")
+        for (const toml::table* item : tables_of(node, key, place))
+            config.bake.unwrap.texel_scales.push_back(texel_scale_of(*item, place));
 }
 
 }  // namespace
@@ -124,7 +147,8 @@ void read_config_file(const std::filesystem::path& path, Config& config) {
         throw Error(ErrorKind::usage, fmt::format("{}:{}: {}", path.string(), error.source().begin.line,
                                                   std::string(error.description())));
     }
-    check_keys(table, {"size", "density", "gutter", "uv", "samples", "seed", "threads", "monitor"}, place);
+    check_keys(table, {"size", "density", "gutter", "uv", "samples", "seed", "threads", "monitor", "texel_scale"},
+               place);
     if (table.contains("size") && table.contains("density"))
         place.fail(*table.get("density"), "\"size\" and \"density\" exclude each other: one follows from the other");
     for (const auto& [key, node] : table) read_key(std::string(key.str()), node, place, config);

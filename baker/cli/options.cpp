@@ -113,6 +113,12 @@ std::string to_toml(const Config& config) {
     text += fmt::format("samples = {}            # rays for each texel and monitor\n", config.bake.gather.samples);
     text += fmt::format("seed = {}\n", config.bake.gather.seed);
     text += fmt::format("threads = {}              # 0: all cores\n", config.threads);
+    for (const TexelScale& wish : unwrap.texel_scales) {
+        text += "\n[[texel_scale]]\n";
+        if (!wish.node.empty()) text += fmt::format("node = {}\n", quoted(wish.node));
+        if (!wish.material.empty()) text += fmt::format("material = {}\n", quoted(wish.material));
+        text += fmt::format("scale = {}\n", wish.scale);
+    }
     const bool from_command_line = !config.monitors.command_line.empty();
     for (const auto& m : from_command_line ? config.monitors.command_line : config.monitors.config_nodes)
         text += fmt::format("\n[[monitor]]\nnode = {}\n{}", quoted(m.node), channel_line(m.channel));
@@ -137,6 +143,12 @@ std::string settings_json(const Config& config) {
     else
         json["size"] = {unwrap.width, unwrap.height};
     json["gutter"] = unwrap.gutter;
+    for (const TexelScale& wish : unwrap.texel_scales) {
+        nlohmann::ordered_json& item = json["texel_scale"].emplace_back();
+        if (!wish.node.empty()) item["node"] = wish.node;
+        if (!wish.material.empty()) item["material"] = wish.material;
+        item["scale"] = wish.scale;
+    }
     json["samples"] = config.bake.gather.samples;
     json["seed"] = config.bake.gather.seed;
     return json.dump();

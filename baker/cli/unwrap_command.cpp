@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "baker/cli/commands.h"
+#include "baker/cli/density_summary.h"
 #include "baker/cli/options.h"
 #include "baker/cli/progress.h"
 #include "baker/write/baked_glb.h"
@@ -16,7 +17,7 @@
 namespace surimi {
 namespace {
 
-/// An unwrap needs no monitor; where there are some, they decide which far surfaces are capped.
+/// An unwrap needs no monitor; where there are some, they decide where texels go.
 void find_monitors_if_any(Scene& scene, const Given& given, const Config& config) {
     try {
         find_monitors(scene, config.monitors);
@@ -51,6 +52,7 @@ int unwrap_scene(const Given& given, const std::filesystem::path& out) {
     } else {
         fmt::print("{}\n", out.string());
     }
+    if (!given.quiet) print_density_weights(atlas);
     if (!given.quiet)
         fmt::print(stderr, "{} charts at {:.4g} texels per metre on {} x {}\n", atlas.charts.size(),
                    atlas.texels_per_metre, atlas.width, atlas.height);

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "runtime/base/math.h"
@@ -23,21 +22,33 @@ struct Chart {
     double texels_per_metre = 0;  ///< 0 for charts of zero-area slivers, which have no meaningful density
 };
 
-/// A surface that got fewer texels per metre than the rest, and why.
-struct DensityCap {
-    uint32_t surface = 0;
-    double factor = 1;  ///< its density over the atlas' density, below 1
-    std::string reason;
+/// Why charts get more or fewer texels per metre than the atlas says.
+enum class DensityCause {
+    unreached,   ///< no monitor's light can arrive
+    far,         ///< far from every monitor
+    texel_scale  ///< the user wants it
+};
+
+/// The charts of one surface that one cause gives another density than the atlas'.
+struct DensityWeight {
+    uint32_t surface = 0;  ///< index into Scene::surfaces
+    DensityCause cause = DensityCause::unreached;
+    size_t charts = 0;
+    double area = 0;         ///< of these charts, square metres
+    double area_share = 0;   ///< of the surface's area
+    double texel_share = 0;  ///< of the texels inside all charts
+    double least = 1;        ///< density over the atlas' density, by this cause alone: of the sparsest chart
+    double most = 1;         ///< of the densest
 };
 
 struct Atlas {
     int width = 0;
     int height = 0;
     int gutter = 2;                   ///< empty texels between the touched texels of two charts, at least
-    double texels_per_metre = 0;      ///< of charts that were not capped
+    double texels_per_metre = 0;      ///< of charts that nothing weighs
     std::vector<SurfaceUv> surfaces;  ///< one for each Scene::surfaces
     std::vector<Chart> charts;
-    std::vector<DensityCap> caps;
+    std::vector<DensityWeight> weights;  ///< sorted by surface and cause
 };
 
 }  // namespace surimi

@@ -159,8 +159,8 @@ std::vector<FlatChart> shorten(const FaceGraph& graph, const FlatChart& chart, c
 
 }  // namespace
 
-void shorten_charts(const std::vector<FaceGraph>& graphs, std::vector<FlatChart>& charts,
-                    std::vector<double>& factors) {
+void shorten_charts(const std::vector<FaceGraph>& graphs, const std::vector<double>& factors,
+                    std::vector<FlatChart>& charts) {
     double need = 0;
     for (size_t i = 0; i < charts.size(); ++i) need += charts[i].need * factors[i] * factors[i];
     const double easy = easy_length * std::sqrt(need / filled_share);
@@ -170,14 +170,11 @@ void shorten_charts(const std::vector<FaceGraph>& graphs, std::vector<FlatChart>
         pieces[i] = shorten(graphs[charts[i].surface], charts[i], room);
     });
     std::vector<FlatChart> shorter;
-    std::vector<double> shorter_factors;
     for (size_t i = 0; i < charts.size(); ++i) {
         if (pieces[i].empty()) pieces[i].push_back(std::move(charts[i]));
-        shorter_factors.insert(shorter_factors.end(), pieces[i].size(), factors[i]);
         std::move(pieces[i].begin(), pieces[i].end(), std::back_inserter(shorter));
     }
     charts = std::move(shorter);
-    factors = std::move(shorter_factors);
 }
 
 }  // namespace surimi

@@ -25,8 +25,7 @@ constexpr int patient_rounds = 6;
 struct Work {
     std::vector<FaceGraph> graphs;  ///< of each surface
     std::vector<FlatChart> charts;
-    std::vector<double> factors;  ///< density of each surface over the atlas'
-    std::vector<double> chart_factors;
+    std::vector<ChartWeight> weights;  ///< of each chart
 };
 
 void check_settings(const Scene& scene, const UnwrapSettings& settings) {
@@ -92,18 +91,29 @@ bool replace_failed(Work& work, const std::vector<RoundedChart>& rounded, int ro
     });
     if (std::all_of(rounded.begin(), rounded.end(), is_one_to_one)) return false;
     std::vector<FlatChart> charts;
+    std::vector<ChartWeight> weights;
     for (size_t i = 0; i < parts.size(); ++i) {
+        weights.insert(weights.end(), std::max<size_t>(1, parts[i].size()), work.weights[i]);
         if (parts[i].empty())
             charts.push_back(std::move(work.charts[i]));
         else
             std::move(parts[i].begin(), parts[i].end(), std::back_inserter(charts));
     }
     work.charts = std::move(charts);
+    work.weights = std::move(weights);
     return true;
 }
 
+std::vector<double> factors_of(const std::vector<ChartWeight>& weights) {
+    std::vector<double> factors;
+    factors.reserve(weights.size());
+    for (const ChartWeight& weight : weights) factors.push_back(density_factor(weight));
+    return factors;
+}
+
 Layout fit(const Work& work, const UnwrapSettings& settings, const Progress& progress, double known) {
-    const FitRequest request{work.charts, work.chart_factors, settings.gutter, progress};
+    const std::vector<double> factors = factors_of(work.weights);
+    const FitRequest request{work.charts, factors, settings.gutter, progress};
     if (settings.texels_per_metre > 0) return fit_to_density(request, settings.texels_per_metre);
     const MapSize map{settings.width, settings.height};
     return known > 0 ? fit_near(request, map, known) : fit_to_map(request, map);
@@ -139,16 +149,14 @@ Atlas unwrap(const Scene& scene, const UnwrapSettings& settings, const Progress&
     check_settings(scene, settings);
     if (settings.uv == UvSource::existing) return take_existing(scene, settings);
 
+    const std::vector<double> scales = texel_scales(scene, settings.texel_scales);
     Work work;
-    std::vector<DensityCap> caps;
     cut_scene(scene, settings, progress, work);
-    work.factors = density_factors(scene, caps);
-    for (const FlatChart& chart : work.charts) work.chart_factors.push_back(work.factors[chart.surface]);
-    shorten_charts(work.graphs, work.charts, work.chart_factors);
+    work.weights = weigh_charts(scene, work.charts, scales);
+    shorten_charts(work.graphs, factors_of(work.weights), work.charts);
+    work.weights = weigh_charts(scene, work.charts, scales);
     double known = 0;
     for (int round = 0;; ++round) {
-        work.chart_factors.clear();
-        for (const FlatChart& chart : work.charts) work.chart_factors.push_back(work.factors[chart.surface]);
         const Layout layout = fit(work, settings, progress, known);
         std::vector<RoundedChart> rounded(work.charts.size());
         parallel_for(work.charts.size(), 16, [&](size_t i) {
@@ -160,7 +168,7 @@ Atlas unwrap(const Scene& scene, const UnwrapSettings& settings, const Progress&
         }
         Atlas atlas = to_atlas(scene, work, layout, rounded);
         atlas.gutter = settings.gutter;
-        atlas.caps = std::move(caps);
+        atlas.weights = list_weights(work.charts, work.weights);
         return atlas;
     }
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "baker/unwrap/atlas.h"
+#include "baker/unwrap/texel_scale.h"
 #include "runtime/base/parallel.h"
 #include "runtime/scene/scene.h"
 
@@ -30,13 +31,15 @@ struct UnwrapSettings {
                                   ///< direction, and its mean symmetric Dirichlet energy is at most
                                   ///< 4 + 0.4 (stretch - 1)^2
     UvQuality quality = UvQuality::medium;
+    std::vector<TexelScale> texel_scales;  ///< densities that the user wants, besides extras.texel_scale
 };
 
 /// Cuts every surface into charts without flips or overlaps, at one density, and packs them into exactly the size
-/// asked for. Deterministic. Adds nothing to the scene and drops nothing with area.
-/// Throws Error(nothing_to_bake) when the scene has no triangle, Error(usage) when the charts cannot fit even at the
-/// lowest density (it names the smallest size that can), Error(scene) when existing UVs are unfit (missing, out of
-/// [0, 1], overlapping, not finite): the message names surface and triangles.
+/// asked for. Deterministic. Adds nothing to the scene and drops nothing with area. The density follows weigh_charts
+/// and texel_scales; existing UVs keep their own. Throws Error(nothing_to_bake) when the scene has no triangle,
+/// Error(usage) when the charts cannot fit even at the lowest density (it names the smallest size that can) or a texel
+/// scale names nothing, Error(scene) when existing UVs are unfit (missing, out of [0, 1], overlapping, not finite): the
+/// message names surface and triangles.
 Atlas unwrap(const Scene& scene, const UnwrapSettings& settings, const Progress& progress);
 
 }  // namespace surimi

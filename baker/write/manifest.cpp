@@ -9,6 +9,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "baker/unwrap/density.h"
+
 namespace surimi {
 namespace {
 
@@ -122,11 +124,17 @@ Json error_section(const Scene& scene, const Bake& bake) {
     return section;
 }
 
-Json caps_section(const Scene& scene, const Atlas& atlas) {
+/// Each cause on its own: where two hold for a chart, its density has both factors.
+Json weights_section(const Scene& scene, const Atlas& atlas) {
     Json section = Json::array();
-    for (const DensityCap& cap : atlas.caps)
-        section.push_back(
-            {{"surface", scene.surfaces[cap.surface].name}, {"factor", cap.factor}, {"reason", cap.reason}});
+    for (const DensityWeight& weight : atlas.weights)
+        section.push_back({{"surface", scene.surfaces[weight.surface].name},
+                           {"cause", name_of(weight.cause)},
+                           {"charts", weight.charts},
+                           {"areaSquareMetres", weight.area},
+                           {"shareOfSurface", weight.area_share},
+                           {"shareOfTexels", weight.texel_share},
+                           {"factor", {weight.least, weight.most}}});
     return section;
 }
 
@@ -173,7 +181,7 @@ std::string make_manifest(const Scene& scene, const Bake& bake, const std::strin
                         {"texels", texels_section(scene, bake)},
                         {"error", error_section(scene, bake)},
                         {"rays", rays},
-                        {"densityCaps", caps_section(scene, bake.atlas)},
+                        {"densityWeights", weights_section(scene, bake.atlas)},
                         {"warnings", bake.warnings},
                         {"notes", notes_section(scene)},
                         {"outputs", outputs_section(files)},

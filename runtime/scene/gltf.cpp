@@ -115,6 +115,7 @@ void read_nodes(const GltfDocument& document, Scene& scene) {
         node.monitor_channel = mark.channel;
         node.is_two_sided_monitor = mark.is_two_sided;
         if (mark.is_unclear) add_note(scene, "extras.monitor is none of R, G, B, 0, 1, 2, true; taken as true", place);
+        node.texel_scale = read_texel_scale(source, place, scene);
         node.monitor_size = monitor_size(source, place, scene);
         read_area_light(document.json, source, place, scene, node);
         if (source.contains("/extensions/EXT_mesh_gpu_instancing"_json_pointer))

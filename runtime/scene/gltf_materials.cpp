@@ -213,6 +213,15 @@ MonitorMark read_monitor_mark(const json& object) {
     return mark;
 }
 
+double read_texel_scale(const json& object, const std::string& place, Scene& scene) {
+    const json& value = member(member(object, "extras"), "texel_scale");
+    if (value.is_null()) return 1;
+    const double scale = value.is_number() ? value.get<double>() : 0;
+    if (scale >= least_texel_scale && scale <= largest_texel_scale) return scale;
+    add_note(scene, "extras.texel_scale is not a number from 0.001 to 1000; ignored", place);
+    return 1;
+}
+
 void read_materials(const GltfDocument& document, Scene& scene) {
     for (size_t m = 0; m < document.model.materials.size(); ++m) {
         const json& source = document.json["materials"][m];
@@ -224,6 +233,7 @@ void read_materials(const GltfDocument& document, Scene& scene) {
         material.monitor_channel = mark.channel;
         material.is_two_sided_monitor = mark.is_two_sided;
         if (mark.is_unclear) add_note(scene, "extras.monitor is none of R, G, B, 0, 1, 2, true; taken as true", place);
+        material.texel_scale = read_texel_scale(source, place, scene);
         note_ignored_extensions(member(source, "extensions"), place, scene);
         scene.materials.push_back(std::move(material));
     }

@@ -15,6 +15,10 @@ struct MonitorMark {
 };
 MonitorMark read_monitor_mark(const nlohmann::json& object);
 
+/// extras.texel_scale of a node or a material: a number from 0.001 to 1000. Without it 1; with something else 1 and a
+/// note.
+double read_texel_scale(const nlohmann::json& object, const std::string& place, Scene& scene);
+
 /// Fills scene.materials. Extensions that change what we need and that we ignore are noted.
 void read_materials(const GltfDocument& document, Scene& scene);
 

@@ -3,10 +3,10 @@
 
 #include "runtime/base/error.h"
 #include "runtime/scene/monitor_shapes.h"
+#include "runtime/scene/node_names.h"
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <regex>
 #include <utility>
 
@@ -22,68 +22,7 @@ bool is_monitor_name(const std::string& name) {
     return name.size() <= longest && std::regex_match(name, pattern);
 }
 
-size_t edit_distance(const std::string& a, const std::string& b) {
-    std::vector<size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), size_t{0});
-    for (size_t i = 1; i <= a.size(); ++i) {
-        size_t diagonal = std::exchange(row[0], i);
-        for (size_t j = 1; j <= b.size(); ++j) {
-            const size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-            diagonal = row[j];
-            row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
-        }
-    }
-    return row.back();
-}
-
-std::string nearest_name(const Scene& scene, const std::string& name) {
-    std::string nearest;
-    size_t best = SIZE_MAX;
-    for (const Node& node : scene.nodes) {
-        const size_t distance =
-            node.is_in_scene ? edit_distance(name.substr(0, 64), node.name.substr(0, 64)) : SIZE_MAX;
-        if (distance < best) nearest = node.name;
-        best = std::min(best, distance);
-    }
-    return nearest;
-}
-
-/// A node that is called "a*" is meant literally; only when there is none is the name a pattern.
-std::vector<size_t> matching_nodes(const Scene& scene, const std::string& name) {
-    std::vector<size_t> exact;
-    std::vector<size_t> matching;
-    for (size_t n = 0; n < scene.nodes.size(); ++n) {
-        if (!scene.nodes[n].is_in_scene) continue;
-        if (scene.nodes[n].name == name) exact.push_back(n);
-        if (matches_glob(name, scene.nodes[n].name)) matching.push_back(n);
-    }
-    return exact.empty() ? matching : exact;
-}
-
 }  // namespace
-
-bool matches_glob(const std::string& pattern, const std::string& text) {
-    size_t p = 0;
-    size_t t = 0;
-    size_t star = std::string::npos;
-    size_t retry = 0;
-    while (t < text.size()) {
-        if (p < pattern.size() && pattern[p] == '*') {
-            star = p++;
-            retry = t;
-        } else if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == text[t])) {
-            ++p;
-            ++t;
-        } else if (star != std::string::npos) {
-            p = star + 1;
-            t = ++retry;  // the star swallows one character more
-        } else {
-            return false;
-        }
-    }
-    while (p < pattern.size() && pattern[p] == '*') ++p;
-    return p == pattern.size();
-}
 
 double flux(const MonitorCandidate& candidate) {
     return luminance(candidate.monitor.radiance) * area(candidate.monitor) * pi;
@@ -233,8 +172,8 @@ std::vector<MonitorCandidate> CandidateFinder::selected(const std::vector<Monito
         const std::string where = scene_.path.string() + ": monitor \"" + selector.node + "\": ";
         if (found.empty() && nodes.empty())
             throw Error(ErrorKind::usage, where + "no node of the scene has this name; the nearest is \"" +
-                                              nearest_name(scene_, selector.node) + "\". List them: surimi inspect " +
-                                              scene_.path.string());
+                                              nearest_node_name(scene_, selector.node) +
+                                              "\". List them: surimi inspect " + scene_.path.string());
         if (found.empty())
             throw Error(ErrorKind::usage,
                         where +

@@ -54,7 +54,4 @@ class CandidateFinder {
     std::vector<bool> is_claimed_;
 };
 
-/// Does `text` match the shell glob `pattern` (* and ?)?
-bool matches_glob(const std::string& pattern, const std::string& text);
-
 }  // namespace surimi

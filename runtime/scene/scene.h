@@ -49,10 +49,15 @@ struct Material {
     bool is_marked_monitor = false;     ///< extras.monitor is there and is not false
     int monitor_channel = -1;           ///< from extras.monitor, when it names one: 0, 1, 2
     bool is_two_sided_monitor = false;  ///< extras.monitor_two_sided
+    double texel_scale = 1;             ///< extras.texel_scale: texels a metre over the usual, for lightmaps
     TextureUse visibility_map;          ///< the map that a baked file carries (extras.visibilityMap and its carrier)
     std::array<std::string, 3> visibility_channels;  ///< monitor of R, G, B; empty where unused
     bool visibility_is_srgb = false;                 ///< the carried map is sRGB-encoded
 };
+
+/// What extras.texel_scale may be.
+inline constexpr double least_texel_scale = 0.001;
+inline constexpr double largest_texel_scale = 1000;
 
 struct Node {
     std::string name;  ///< never empty: unnamed nodes are called node_<index>
@@ -63,6 +68,7 @@ struct Node {
     bool is_marked_monitor = false;  ///< extras.monitor
     int monitor_channel = -1;
     bool is_two_sided_monitor = false;
+    double texel_scale = 1;  ///< extras.texel_scale, for this node's and its descendants' meshes
     Vec2 monitor_size{
         0};  ///< extras.monitor_size: an empty node that is a monitor of this width and height, facing its +z
     Vec2 area_light_size{0};  ///< EXT_lights_area rectangle: width and height before the node's scale, facing its -z

@@ -49,6 +49,12 @@ printf 'samples = "many"\n' >"$work/bad.toml"
 expect 2 "bad.toml:1" "$surimi" bake "$theater" --config "$work/bad.toml"
 printf 'size = [\n' >"$work/bad.toml"
 expect 2 "bad.toml" "$surimi" bake "$theater" --config "$work/bad.toml"
+printf '[[texel_scale]]\nnode = "Flor*"\nscale = 2\n' >"$work/bad.toml"
+expect 2 'node "Flor*"' "$surimi" bake "$theater" --config "$work/bad.toml"
+printf '[[texel_scale]]\nscale = 2\n' >"$work/bad.toml"
+expect 2 'needs "node" or "material"' "$surimi" bake "$theater" --config "$work/bad.toml"
+printf '[[texel_scale]]\nnode = "*"\nscale = 0\n' >"$work/bad.toml"
+expect 2 "bad.toml:3" "$surimi" bake "$theater" --config "$work/bad.toml"
 expect 2 "no camera is called" "$surimi" preview "$theater" -o "$work/x.png" --camera Nowhere
 expect 2 "must be a .png or .exr" "$surimi" preview "$theater" -o "$work/x.bmp"
 
@@ -85,11 +91,12 @@ done
 check node "$here/validate_glb.mjs" "$theater" "$work/out/home-theater.baked.glb"
 
 # Settings: file under environment under command line; what is printed can be read back
-printf 'samples = 7\nsize = 96\n' >"$work/some.toml"
+printf 'samples = 7\nsize = 96\n[[texel_scale]]\nnode = "*"\nscale = 0.5\n' >"$work/some.toml"
 expect 0 "samples = 7 " "$surimi" bake "$theater" --config "$work/some.toml" --print-config
 expect 0 "samples = 8 " env SURIMI_SAMPLES=8 "$surimi" bake "$theater" --config "$work/some.toml" --print-config
 expect 0 "samples = 9 " env SURIMI_SAMPLES=8 "$surimi" bake "$theater" --config "$work/some.toml" --samples 9 --print-config
 "$surimi" bake "$theater" --config "$work/some.toml" --monitor 'Monitor_*=B' --print-config >"$work/effective.toml"
+expect 0 'scale = 0.5' "$surimi" bake "$theater" --config "$work/effective.toml" --print-config
 expect 0 'channel = "B"' "$surimi" bake "$theater" --config "$work/effective.toml" --print-config
 check diff <("$surimi" bake "$theater" --config "$work/effective.toml" --print-config) "$work/effective.toml"
 
@@ -118,7 +125,7 @@ expect 0 "" "$surimi" preview "$work/out/home-theater.baked.glb" --map "$work/ou
     -o "$work/lit.exr" --camera 0 1.5 0 --look-at 0 1 -3 --fov 60 --exposure 2 --size 64 36 --quiet
 expect 0 '"exposure"' "$surimi" preview "$work/out/home-theater.baked.glb" -o "$work/json.png" --json --camera auto --size 64 36 --samples 1
 expect 0 "no visibility map" "$surimi" preview "$theater" -o "$work/plain.png" --size 64 36 --samples 1
-expect 0 "charts" "$surimi" unwrap "$theater" -o "$work/uv.glb" --size 256
+expect 0 "no monitor faces or reaches them" "$surimi" unwrap "$theater" -o "$work/uv.glb" --size 256
 expect 2 "is the input" "$surimi" unwrap "$work/uv.glb" -o "$work/uv.glb" --size 256
 
 # Comparing

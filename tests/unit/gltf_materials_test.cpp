@@ -149,5 +149,25 @@ TEST(ReadMonitorMark, KnowsEveryWayToNameAChannel) {
     EXPECT_TRUE(mark("left").is_unclear);
 }
 
+TEST(ReadTexelScale, IsReadFromNodesAndMaterials) {
+    Square square;
+    square.json["materials"] = {{{"name", "wood"}, {"extras", {{"texel_scale", 0.25}}}}};
+    square.json["nodes"][0]["extras"] = {{"texel_scale", 3}};
+    square.primitive["material"] = 0;
+    const Scene scene = square.read();
+    EXPECT_EQ(scene.materials[0].texel_scale, 0.25);
+    EXPECT_EQ(scene.nodes[0].texel_scale, 3);
+    EXPECT_EQ(note_count(scene, "texel_scale"), 0u);
+}
+
+TEST(ReadTexelScale, WhatIsNoScaleIsNoted) {
+    Scene scene;
+    const std::vector<Json> wrong{0, -1, "0.5", true, 1e9, 1e-9, Json::array({1})};
+    for (const Json& value : wrong)
+        EXPECT_EQ(read_texel_scale({{"extras", {{"texel_scale", value}}}}, "node 3", scene), 1) << value;
+    EXPECT_EQ(note_count(scene, "texel_scale"), wrong.size());
+    EXPECT_EQ(read_texel_scale({{"extras", "text"}}, "node 3", scene), 1);
+}
+
 }  // namespace
 }  // namespace surimi

@@ -38,7 +38,7 @@ struct SmallBake {
         bake.atlas.width = bake.atlas.height = 2;
         bake.atlas.texels_per_metre = 8;
         bake.atlas.surfaces = {{{{Vec2f(0.25f, 0.5f), Vec2f(0.75f, 0.5f), Vec2f(0.25f, 0.625f)}}, {0}}};
-        bake.atlas.caps = {{0, 0.5, "far from every monitor"}};
+        bake.atlas.weights = {{0, DensityCause::far, 3, 8, 0.5, 0.25, 0.125, 0.75}};
         bake.state[1] = Image<TexelState>(2, 2, TexelState::covered);
         bake.state[1].pixels[2] = TexelState::unlit;
         bake.state[1].pixels[3] = TexelState::filled;
@@ -63,7 +63,13 @@ TEST(Manifest, TellsWhatWasMadeFromWhat) {
     EXPECT_EQ(json["map"]["width"], 2);
     EXPECT_EQ(json["map"]["origin"], "top-left");
     EXPECT_EQ(json["map"]["texelsPerMetre"], 8);
-    EXPECT_EQ(json["densityCaps"][0]["surface"], "Floor");
+    EXPECT_EQ(json["densityWeights"], Json({{{"surface", "Floor"},
+                                             {"cause", "far"},
+                                             {"charts", 3},
+                                             {"areaSquareMetres", 8.0},
+                                             {"shareOfSurface", 0.5},
+                                             {"shareOfTexels", 0.25},
+                                             {"factor", {0.125, 0.75}}}}));
     EXPECT_EQ(json["warnings"], Json({"Screen faces a wall"}));
     EXPECT_EQ(json["notes"][0]["count"], 3);
     EXPECT_EQ(json["outputs"][1]["file"], "room.baked.glb");

@@ -2,7 +2,7 @@
 #include "runtime/scene/monitors.h"
 
 #include "runtime/base/error.h"
-#include "runtime/scene/monitor_candidates.h"
+#include "runtime/scene/node_names.h"
 
 #include <gtest/gtest.h>
 

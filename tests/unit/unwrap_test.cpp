@@ -161,28 +161,6 @@ TEST(Unwrap, ReportsItsStagesAndStopsWhenTold) {
     error_of(ErrorKind::interrupted, [&] { unwrap(quads(1), square(64), progress); });
 }
 
-TEST(UnwrapDensity, FarGroundDoesNotEatTheRoom) {
-    Scene scene;
-    scene.surfaces.push_back(quad("screen", {-1, 3, 1}, {2, 0, 0}, {0, 0, 1}));
-    scene.surfaces.push_back(quad("floor", {-3, -3, 0}, {6, 0, 0}, {0, 6, 0}));
-    scene.surfaces.push_back(quad("ground", {-100, -100, -1}, {200, 0, 0}, {0, 200, 0}));
-    const Scene dark = scene;
-    Monitor monitor;
-    monitor.panels.push_back({{{-1, 3, 1}, {1, 3, 1}, {1, 3, 2}, {-1, 3, 2}}});  // faces -y
-    scene.monitors.push_back(monitor);
-    scene.surfaces[0].monitor = 0;
-    const Atlas atlas = unwrap(scene, square(256), {});
-    ASSERT_EQ(atlas.caps.size(), 1u);
-    EXPECT_EQ(atlas.caps[0].surface, 2u);
-    EXPECT_LT(atlas.caps[0].factor, 1);
-    EXPECT_NE(atlas.caps[0].reason.find("ground"), std::string::npos);
-    // The ground is a thousand times as large as the floor.
-    EXPECT_GT(uv_area(atlas.surfaces[1]), uv_area(atlas.surfaces[2]));
-    const uint32_t ground = atlas.surfaces[2].chart[0];
-    EXPECT_NEAR(atlas.charts[ground].texels_per_metre, atlas.caps[0].factor * atlas.texels_per_metre, 1e-9);
-    EXPECT_TRUE(unwrap(dark, square(256), {}).caps.empty());
-}
-
 UnwrapSettings existing() {
     UnwrapSettings settings = square(128);
     settings.uv = UvSource::existing;
