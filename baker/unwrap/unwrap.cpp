@@ -7,7 +7,7 @@
 #include "baker/unwrap/charts.h"
 #include "baker/unwrap/density.h"
 #include "baker/unwrap/existing.h"
-#include "baker/unwrap/fit.h"
+#include "baker/unwrap/fit_pages.h"
 #include "baker/unwrap/half_edge.h"
 #include "baker/unwrap/round_chart.h"
 #include "runtime/base/error.h"
@@ -24,11 +24,17 @@ struct Work {
     std::vector<FlatChart> charts;
     std::vector<double> factors;  ///< density of each surface over the atlas'
     std::vector<double> chart_factors;
+    Pages pages;
 };
 
 void check_settings(const Scene& scene, const UnwrapSettings& settings) {
     if (triangle_count(scene) == 0) throw Error(ErrorKind::nothing_to_bake, "the scene has no triangle to unwrap");
     if (settings.gutter < 1) throw Error(ErrorKind::usage, "the gutter has to be at least 1 texel");
+    if (settings.atlases < 1 || settings.atlases > 64)
+        throw Error(ErrorKind::usage,
+                    "a scene goes on 1 to 64 atlases, not " + std::to_string(settings.atlases) + "; raise the size");
+    if (settings.atlases > 1 && settings.uv == UvSource::existing)
+        throw Error(ErrorKind::usage, "existing UVs are those of one map; leave out --atlases, or use --uv unwrap");
     constexpr int largest = 16384;
     const bool is_size_fit =
         settings.width >= 1 && settings.height >= 1 && settings.width <= largest && settings.height <= largest;
@@ -98,22 +104,17 @@ bool replace_failed(Work& work, const std::vector<RoundedChart>& rounded, int ro
     return true;
 }
 
-Layout fit(const Work& work, const UnwrapSettings& settings, const Progress& progress, double known) {
-    const FitRequest request{work.charts, work.chart_factors, settings.gutter, progress};
-    if (settings.texels_per_metre > 0) return fit_to_density(request, settings.texels_per_metre);
-    const MapSize map{settings.width, settings.height};
-    return known > 0 ? fit_near(request, map, known) : fit_to_map(request, map);
-}
-
 Atlas to_atlas(const Scene& scene, const Work& work, const Layout& layout, const std::vector<RoundedChart>& rounded) {
     Atlas atlas;
     atlas.width = layout.map.width;
     atlas.height = layout.map.height;
+    atlas.pages = static_cast<int>(work.pages.densities.size());
     atlas.texels_per_metre = layout.texels_per_metre;
     atlas.surfaces.resize(scene.surfaces.size());
     for (size_t s = 0; s < scene.surfaces.size(); ++s) {
         atlas.surfaces[s].uv.resize(scene.surfaces[s].triangles.size());
         atlas.surfaces[s].chart.resize(scene.surfaces[s].triangles.size());
+        atlas.surfaces[s].page = work.pages.of_surface[s];
     }
     for (uint32_t i = 0; i < work.charts.size(); ++i) {
         const FlatChart& chart = work.charts[i];
@@ -139,21 +140,19 @@ Atlas unwrap(const Scene& scene, const UnwrapSettings& settings, const Progress&
     std::vector<DensityCap> caps;
     cut_scene(scene, progress, work);
     work.factors = density_factors(scene, caps);
-    double known = 0;
     for (int round = 0;; ++round) {
         work.chart_factors.clear();
         for (const FlatChart& chart : work.charts) work.chart_factors.push_back(work.factors[chart.surface]);
-        const Layout layout = fit(work, settings, progress, known);
+        const FitRequest request{work.charts, work.chart_factors, settings.gutter, progress};
+        const Layout layout = fit_pages(scene, request, settings, work.pages);
         std::vector<RoundedChart> rounded(work.charts.size());
         parallel_for(work.charts.size(), 16, [&](size_t i) {
             rounded[i] = round_chart(work.charts[i], layout.shapes[i], layout.placements[i], layout.map);
         });
-        if (replace_failed(work, rounded, round)) {
-            known = layout.texels_per_metre;
-            continue;
-        }
+        if (replace_failed(work, rounded, round)) continue;
         Atlas atlas = to_atlas(scene, work, layout, rounded);
         atlas.gutter = settings.gutter;
+        add_full_pages(scene, work.pages, layout.texels_per_metre, caps);
         atlas.caps = std::move(caps);
         return atlas;
     }
