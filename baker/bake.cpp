@@ -3,6 +3,7 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "baker/monitor_warnings.h"
@@ -12,7 +13,7 @@
 namespace surimi {
 namespace {
 
-/// Times the stages of a bake, one after the other.
+/// Times the stages of a bake, one after the other. A stage that comes again, for another page, is the same stage.
 class Stopwatch {
   public:
     explicit Stopwatch(std::vector<StageCost>& costs) : costs_(costs) {}
@@ -21,8 +22,11 @@ class Stopwatch {
         const auto now = std::chrono::steady_clock::now();
         rusage usage{};
         getrusage(RUSAGE_SELF, &usage);
-        costs_.push_back({stage, std::chrono::duration<double>(now - start_).count(), rays,
-                          static_cast<size_t>(usage.ru_maxrss) * 1024});
+        auto cost = std::find_if(costs_.begin(), costs_.end(), [&](const StageCost& c) { return c.stage == stage; });
+        if (cost == costs_.end()) cost = costs_.insert(cost, {stage});
+        cost->seconds += std::chrono::duration<double>(now - start_).count();
+        cost->rays += rays;
+        cost->peak_bytes = static_cast<size_t>(usage.ru_maxrss) * 1024;
         start_ = now;
     }
 
@@ -38,8 +42,10 @@ Image<IrradianceEstimate> as_image(const Texels& texels, const std::vector<Irrad
     return image;
 }
 
-void store_channel(VisibilityMap& map, int channel, const Image<float>& visibility) {
-    for (size_t i = 0; i < visibility.pixels.size(); ++i) map.visibility.pixels[i][channel] = visibility.pixels[i];
+void store_channel(VisibilityMap& map, const Monitor& monitor, const Image<float>& visibility) {
+    for (size_t i = 0; i < visibility.pixels.size(); ++i)
+        map.visibility.pixels[i][monitor.channel] = visibility.pixels[i];
+    map.monitors[static_cast<size_t>(monitor.channel)] = monitor.name;
 }
 
 }  // namespace
@@ -50,26 +56,32 @@ Bake bake(const Scene& scene, const BakeSettings& settings, const Progress& prog
 
     result.atlas = unwrap(scene, settings.unwrap, progress);
     stopwatch.finish("unwrap");
-    const Texels texels = find_texels(scene, result.atlas);
+    std::vector<Texels> texels;
+    for (int page = 0; page < result.atlas.pages; ++page) texels.push_back(find_texels(scene, result.atlas, page));
     stopwatch.finish("texels");
     const RayScene rays(scene);
     result.warnings = monitor_warnings(scene, rays);
     stopwatch.finish("rays");
 
-    result.map.visibility = Image<Vec3f>(result.atlas.width, result.atlas.height, Vec3f(1));  // unused channels stay 1
+    result.pages.resize(texels.size());
+    for (BakedPage& page : result.pages)  // unused channels stay 1
+        page.map.visibility = Image<Vec3f>(result.atlas.width, result.atlas.height, Vec3f(1));
     for (size_t m = 0; m < scene.monitors.size(); ++m) {
         const Monitor& monitor = scene.monitors[m];
         const auto c = static_cast<size_t>(monitor.channel);
-        const Gathered gathered = gather(scene, result.atlas, texels, rays, m, settings.gather, progress);
-        stopwatch.finish("light from " + monitor.name, gathered.rays);
+        for (size_t p = 0; p < texels.size(); ++p) {
+            const Gathered gathered =
+                gather(scene, result.atlas, texels[p], rays, m, settings.gather, part_of(progress, p, texels.size()));
+            stopwatch.finish("light from " + monitor.name, gathered.rays);
 
-        Channel channel = visibility_channel(texels, gathered.estimates);
-        fill(result.atlas, texels, channel.visibility, channel.state);
-        store_channel(result.map, monitor.channel, channel.visibility);
-        result.map.monitors[c] = monitor.name;
-        result.state[c] = std::move(channel.state);
-        result.irradiance[c] = as_image(texels, gathered.estimates);
-        stopwatch.finish("fill " + monitor.name);
+            BakedPage& page = result.pages[p];
+            Channel channel = visibility_channel(texels[p], gathered.estimates);
+            fill(result.atlas, texels[p], channel.visibility, channel.state);
+            store_channel(page.map, monitor, channel.visibility);
+            page.state[c] = std::move(channel.state);
+            page.irradiance[c] = as_image(texels[p], gathered.estimates);
+            stopwatch.finish("fill " + monitor.name);
+        }
     }
     return result;
 }

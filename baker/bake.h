@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole pipeline: Scene -> Atlas -> texels -> irradiance -> visibility map.
+// The whole pipeline: Scene -> Atlas -> texels -> irradiance -> visibility map, or several maps.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ struct BakeSettings {
     GatherSettings gather;
 };
 
-/// What one stage cost.
+/// What one stage cost, over all monitors and pages that it names.
 struct StageCost {
     std::string stage;
     double seconds = 0;
@@ -30,17 +30,22 @@ struct StageCost {
     size_t peak_bytes = 0;  ///< resident set of the process at its highest so far
 };
 
-struct Bake {
-    Atlas atlas;
+/// One page of the atlas.
+struct BakedPage {
     VisibilityMap map;
     std::array<Image<TexelState>, 3> state;               ///< by channel; empty where there is no monitor
     std::array<Image<IrradianceEstimate>, 3> irradiance;  ///< by channel; the evidence behind the map
+};
+
+struct Bake {
+    Atlas atlas;
+    std::vector<BakedPage> pages;
     std::vector<StageCost> costs;
     std::vector<std::string> warnings;
 };
 
-/// Bakes scene.monitors into one map. The result depends on scene and settings alone, not on the number of threads.
-/// Throws what its stages throw, and Error(interrupted).
+/// Bakes scene.monitors into one map for each page of the atlas. The result depends on scene and settings alone, not on
+/// the number of threads. Throws what its stages throw, and Error(interrupted).
 Bake bake(const Scene& scene, const BakeSettings& settings, const Progress& progress);
 
 }  // namespace surimi

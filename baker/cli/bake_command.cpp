@@ -17,8 +17,13 @@
 namespace surimi {
 namespace {
 
-size_t count(const Image<TexelState>& state, TexelState which) {
-    return static_cast<size_t>(std::count(state.pixels.begin(), state.pixels.end(), which));
+std::ptrdiff_t count(const Bake& bake, const Monitor& monitor, TexelState which) {
+    std::ptrdiff_t sum = 0;
+    for (const BakedPage& page : bake.pages) {
+        const auto& state = page.state[static_cast<size_t>(monitor.channel)].pixels;
+        sum += std::count(state.begin(), state.end(), which);
+    }
+    return sum;
 }
 
 /// What a person wants to know when it is done.
@@ -26,14 +31,14 @@ void print_summary(const Scene& scene, const Bake& bake) {
     double seconds = 0;
     size_t rays = 0;
     for (const StageCost& cost : bake.costs) seconds += cost.seconds, rays += cost.rays;
+    if (bake.pages.size() > 1) fmt::print(stderr, "{} maps, each ", bake.pages.size());
     fmt::print(stderr, "{} x {} texels, {} charts at {:.4g} texels per metre; {:.1f} s, {:.1f} M rays, {:.0f} MiB\n",
                bake.atlas.width, bake.atlas.height, bake.atlas.charts.size(), bake.atlas.texels_per_metre, seconds,
                static_cast<double>(rays) / 1e6, static_cast<double>(bake.costs.back().peak_bytes) / 1048576);
     for (const Monitor& monitor : scene.monitors) {
-        const Image<TexelState>& state = bake.state[static_cast<size_t>(monitor.channel)];
         fmt::print(stderr, "{} {}: {} texels measured, {} unlit, {} filled, {} empty\n", "RGB"[monitor.channel],
-                   monitor.name, count(state, TexelState::covered), count(state, TexelState::unlit),
-                   count(state, TexelState::filled), count(state, TexelState::empty));
+                   monitor.name, count(bake, monitor, TexelState::covered), count(bake, monitor, TexelState::unlit),
+                   count(bake, monitor, TexelState::filled), count(bake, monitor, TexelState::empty));
     }
     print_density_weights(bake.atlas);
     for (const std::string& warning : bake.warnings) fmt::print(stderr, "warning: {}\n", warning);
@@ -54,9 +59,7 @@ int bake_scene(const Given& given, const std::filesystem::path& out) {
         std::ifstream manifest(paths.manifest_json);
         fmt::print("{}", std::string(std::istreambuf_iterator<char>(manifest), {}));
     } else {
-        for (const auto& path :
-             {paths.visibility_exr, paths.visibility_png, paths.lightmaps_exr, paths.baked_glb, paths.manifest_json})
-            fmt::print("{}\n", path.string());
+        for (const auto& path : paths.all()) fmt::print("{}\n", path.string());
     }
     return 0;
 }

@@ -17,6 +17,8 @@ const char* reason(DensityCause cause) {
             return "far from every monitor";
         case DensityCause::texel_scale:
             return "texel_scale";
+        case DensityCause::full_page:
+            return "their surface alone fills a map";
     }
     return "";
 }
@@ -28,7 +30,7 @@ std::string counted(size_t count, const char* noun) {
 }  // namespace
 
 void print_density_weights(const Atlas& atlas) {
-    for (const DensityCause cause : {DensityCause::unreached, DensityCause::far, DensityCause::texel_scale}) {
+    for (const DensityCause cause : {DensityCause::unreached, DensityCause::far, DensityCause::texel_scale, DensityCause::full_page}) {
         size_t surfaces = 0;
         DensityWeight sum{0, cause, 0, 0, 0, 0, INFINITY, 0};
         for (const DensityWeight& weight : atlas.weights) {

@@ -19,6 +19,7 @@
 #include "runtime/map/map_file.h"
 #include "runtime/preview/display.h"
 #include "runtime/scene/gltf.h"
+#include "runtime/visibility/baked.h"
 
 namespace surimi {
 namespace {
@@ -45,7 +46,7 @@ std::vector<std::string> names_of(const std::map<std::string, T>& choices) {
 struct PreviewOptions {
     Given given;
     std::filesystem::path out;
-    std::filesystem::path map;
+    std::vector<std::filesystem::path> maps;
     std::vector<std::string> camera;
     std::vector<double> look_at;
     double yfov_degrees = 0;
@@ -82,21 +83,24 @@ MonitorRequest monitor_request(const Scene& scene, const Config& config) {
     return request;
 }
 
-VisibilityMap load_map(const Scene& scene, const PreviewOptions& options) {
-    if (!options.map.empty()) return read_map_exr(options.map);
-    const Material* material = carrier(scene);
-    if (material) {
-        const auto& image = scene.images[static_cast<size_t>(material->visibility_map.image)];
-        if (image.empty())
-            throw Error(ErrorKind::scene,
-                        scene.path.string() + ": its visibility map could not be decoded; give one with --map");
-        return map_from_image(image, material->visibility_is_srgb);
+/// The maps of a bake by page, from the files given or from the scene; none for an unbaked scene.
+std::vector<VisibilityMap> load_pages(const Scene& scene, const PreviewOptions& options) {
+    if (options.maps.empty()) {
+        std::vector<VisibilityMap> pages = carried_pages(scene);
+        if (pages.empty() && !options.given.quiet)
+            fmt::print(
+                stderr,
+                "note: {} carries no visibility map, so nothing is shadowed; bake it, or give a map with --map\n",
+                scene.path.filename().string());
+        return pages;
     }
-    if (!options.given.quiet)
-        fmt::print(stderr,
-                   "note: {} carries no visibility map, so nothing is shadowed; bake it, or give a map with --map\n",
-                   scene.path.filename().string());
-    return {};
+    const size_t count = page_count(scene);
+    if (options.maps.size() != count)
+        throw Error(ErrorKind::usage, fmt::format("{} was baked into {} maps, not {}; give all of them to --map",
+                                                  scene.path.filename().string(), count, options.maps.size()));
+    std::vector<VisibilityMap> pages;
+    for (const auto& file : options.maps) pages.push_back(read_map_exr(file));
+    return pages;
 }
 
 const Camera& camera_named(const Scene& scene, const std::string& name) {
@@ -179,7 +183,7 @@ void compare_with_reference(const Lighting& lighting, const View& view, RenderSe
     LightingSettings truth = lighting.settings;
     truth.model = ShadingModel::reference;
     truth.samples = std::max(1, options.reference_samples / 2);
-    const Lighting by_brute_force(lighting.scene, lighting.map, lighting.rays, lighting.lights, truth);
+    const Lighting by_brute_force(lighting.scene, lighting.pages, lighting.rays, lighting.lights, truth);
     std::vector<Image<Vec3f>> halves;
     for (const uint64_t seed : {1, 2}) {
         settings.seed = seed;
@@ -225,9 +229,9 @@ int preview(const PreviewOptions& options) {
     Scene scene = read_gltf(options.given.scene);
     find_monitors(scene, monitor_request(scene, config));
     if (!options.given.quiet) print_notes(scene);
-    const VisibilityMap map = load_map(scene, options);
+    const std::vector<VisibilityMap> pages = load_pages(scene, options);
     const RayScene rays(scene);
-    const Lighting lighting(scene, map, rays, chosen_lights(scene, options.lights, options.pictures),
+    const Lighting lighting(scene, pages, rays, chosen_lights(scene, options.lights, options.pictures),
                             lighting_settings(options));
     const View view = choose_view(lighting, options);
     RenderSettings settings;
@@ -290,8 +294,11 @@ Run add_preview_command(CLI::App& app) {
     command->add_option("-o,--output", options->out, "Picture to write: .png (filmic, sRGB) or .exr (linear)")
         ->required()
         ->type_name("FILE");
-    command->add_option("--map", options->map, "The map as EXR, in place of the one that SCENE carries")
-        ->type_name("FILE");
+    command
+        ->add_option("--map", options->maps,
+                     "The map as EXR, in place of the one that SCENE carries; repeatable, in order, if it has several")
+        ->type_name("FILE")
+        ->allow_extra_args(false);
     command
         ->add_option("--camera", options->camera,
                      "A camera of the scene by name, a place, or auto [the first, else auto]")

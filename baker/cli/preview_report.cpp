@@ -60,7 +60,7 @@ std::string explanation(const Lighting& lighting, const Picture& picture) {
         };
         text += fmt::format("\n{} ({})\n", lighting.scene.monitors[m].name, "RGB"[lighting.scene.monitors[m].channel]);
         if (!plan.is_lit) text += "  is off: nothing is computed\n";
-        if (is_baked && lighting.map.visibility.empty())
+        if (is_baked && lighting.pages.empty())
             text += "  no map: no shadows\n";
         else if (is_baked && !plan.is_ever_blocked)
             text += "  is never blocked: the map is not read for it\n";

@@ -43,19 +43,18 @@ int unwrap_scene(const Given& given, const std::filesystem::path& out) {
         throw Error(ErrorKind::usage, out.string() + ": is the input; choose another file with -o");
     write_file(out, make_baked_glb(scene, atlas, {}));
     if (given.json) {
-        nlohmann::ordered_json json{{"file", out.string()},
-                                    {"width", atlas.width},
-                                    {"height", atlas.height},
-                                    {"charts", atlas.charts.size()},
-                                    {"texels_per_metre", atlas.texels_per_metre}};
+        nlohmann::ordered_json json{{"file", out.string()},          {"width", atlas.width},
+                                    {"height", atlas.height},        {"pages", atlas.pages},
+                                    {"charts", atlas.charts.size()}, {"texels_per_metre", atlas.texels_per_metre}};
         fmt::print("{}\n", json.dump(2));
     } else {
         fmt::print("{}\n", out.string());
     }
     if (!given.quiet) print_density_weights(atlas);
     if (!given.quiet)
-        fmt::print(stderr, "{} charts at {:.4g} texels per metre on {} x {}\n", atlas.charts.size(),
-                   atlas.texels_per_metre, atlas.width, atlas.height);
+        fmt::print(stderr, "{} charts at {:.4g} texels per metre on {}{} x {}\n", atlas.charts.size(),
+                   atlas.texels_per_metre, atlas.pages > 1 ? fmt::format("{} maps of ", atlas.pages) : "", atlas.width,
+                   atlas.height);
     return 0;
 }
 

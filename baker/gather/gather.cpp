@@ -52,8 +52,9 @@ double transfer(const SurfacePoint& point, const LightPoint& light, bool two_sid
 /// which nothing is blocked gets exactly 1.
 IrradianceEstimate gather_texel(const Shared& shared, const Texel& texel, size_t& rays) {
     const TexelSurface surface(shared.scene, shared.atlas, shared.texels, texel);
-    const Scrambling seeds =
-        scrambling(hash(hash(shared.seed, static_cast<uint64_t>(shared.monitor.channel)), texel.index));
+    const auto page_size = static_cast<uint64_t>(shared.texels.width) * static_cast<uint64_t>(shared.texels.height);
+    const uint64_t key = static_cast<uint64_t>(shared.texels.page) * page_size + texel.index;
+    const Scrambling seeds = scrambling(hash(hash(shared.seed, static_cast<uint64_t>(shared.monitor.channel)), key));
     const double unshadowed = unshadowed_irradiance(shared, surface, seeds);
     if (!(unshadowed > 0)) return {};
 

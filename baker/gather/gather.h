@@ -32,7 +32,7 @@ struct Gathered {
 
 /// Irradiance that `scene.monitors[monitor]` sends to every texel. Texels that it cannot light (all points behind the
 /// monitor or with the monitor below the horizon) get zeros and cost no ray. Each texel's random numbers depend on its
-/// index, the monitor's channel and the seed alone.
+/// page and index, the monitor's channel and the seed alone.
 Gathered gather(const Scene& scene, const Atlas& atlas, const Texels& texels, const RayScene& rays, size_t monitor,
                 const GatherSettings& settings, const Progress& progress);
 

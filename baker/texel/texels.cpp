@@ -104,9 +104,10 @@ Vec3 clamped(const Vec3& weights) {
 
 }  // namespace
 
-Texels find_texels(const Scene& scene, const Atlas& atlas) {
+Texels find_texels(const Scene& scene, const Atlas& atlas, int page) {
     std::vector<std::vector<Touch>> by_surface(scene.surfaces.size());
     parallel_for(scene.surfaces.size(), 1, [&](size_t s) {
+        if (atlas.surfaces[s].page != page) return;
         for (uint32_t t = 0; t < scene.surfaces[s].triangles.size(); ++t)
             add_touches(atlas, {static_cast<uint32_t>(s), t}, by_surface[s]);
     });
@@ -115,6 +116,7 @@ Texels find_texels(const Scene& scene, const Atlas& atlas) {
     std::sort(touches.begin(), touches.end(), [](const Touch& a, const Touch& b) { return a.key() < b.key(); });
 
     Texels result;
+    result.page = page;
     result.width = atlas.width;
     result.height = atlas.height;
     for (const Touch& touch : touches) {

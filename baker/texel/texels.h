@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Atlas -> texels: which triangles each lightmap texel touches.
+// Atlas -> texels: which triangles each lightmap texel of a page touches.
 #pragma once
 
 #include <cstdint>
@@ -13,14 +13,15 @@ namespace surimi {
 
 /// One texel that at least one triangle touches.
 struct Texel {
-    uint32_t index = 0;  ///< y * width + x; also keys the random numbers
+    uint32_t index = 0;  ///< y * width + x; with the page, it keys the random numbers
     uint32_t chart = 0;
     uint32_t first = 0;  ///< its triangles are Texels::triangles[first, first + count)
     uint32_t count = 0;
 };
 
-/// Sorted by index; each index at most once.
+/// Of one page. Sorted by index; each index at most once.
 struct Texels {
+    int page = 0;
     int width = 0;
     int height = 0;
     std::vector<Texel> texels;
@@ -34,7 +35,7 @@ struct Texels {
 /// Conservative: a texel is listed when the closed triangle and the open texel square meet, and a triangle that meets
 /// no open square (it lies on texel borders) is listed with the texels beside it. Where two charts touch one texel
 /// (existing UVs only), the chart of the lower number owns it.
-Texels find_texels(const Scene& scene, const Atlas& atlas);
+Texels find_texels(const Scene& scene, const Atlas& atlas, int page = 0);
 
 /// The surface under one texel, ready to be sampled evenly by area.
 class TexelSurface {

@@ -219,13 +219,14 @@ std::vector<DensityWeight> list_weights(const std::vector<FlatChart>& charts, co
     std::map<uint32_t, double> surface_area;
     double texels = 0;
     for (size_t c = 0; c < charts.size(); ++c) {
-        const double factor = density_factor(weights[c]);
+        const double factor = density_factor(weights[c]) * weights[c].page;
         const double own_texels = charts[c].area * factor * factor;
         texels += own_texels;
         surface_area[charts[c].surface] += charts[c].area;
         for (const auto& [cause, value] :
              {std::pair{DensityCause::unreached, weights[c].unreached}, std::pair{DensityCause::far, weights[c].far},
-              std::pair{DensityCause::texel_scale, weights[c].scale}}) {
+              std::pair{DensityCause::texel_scale, weights[c].scale},
+              std::pair{DensityCause::full_page, weights[c].page}}) {
             if (value == 1) continue;
             const auto [entry, is_new] =
                 found.try_emplace({charts[c].surface, cause}, DensityWeight{charts[c].surface, cause});
@@ -254,6 +255,8 @@ const char* name_of(DensityCause cause) {
             return "far";
         case DensityCause::texel_scale:
             return "texel_scale";
+        case DensityCause::full_page:
+            return "full_page";
     }
     return "";
 }

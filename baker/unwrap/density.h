@@ -10,13 +10,15 @@
 
 namespace surimi {
 
-/// Density of one chart over the atlas' density, by cause; their product counts.
+/// Density of one chart over the atlas' density, by cause.
 struct ChartWeight {
     double unreached = 1;  ///< below 1 where no monitor's light can arrive
     double far = 1;        ///< below 1 far from every monitor; in (0, 1]
     double scale = 1;      ///< what the user wants
+    double page = 1;       ///< below 1 where a surface is alone on a page and fills it; see fit_pages
 };
 
+/// The product of all that are known before packing.
 double density_factor(const ChartWeight& weight);
 
 /// The weights of `charts`, one for each; `scales` has the user's for each surface.
@@ -41,7 +43,7 @@ std::vector<ChartWeight> weigh_charts(const Scene& scene, const std::vector<Flat
 /// Which surfaces have charts that are not at the atlas' density, and why: a line for each surface and cause.
 std::vector<DensityWeight> list_weights(const std::vector<FlatChart>& charts, const std::vector<ChartWeight>& weights);
 
-/// "unreached", "far", "texel_scale".
+/// "unreached", "far", "texel_scale", "full_page".
 const char* name_of(DensityCause cause);
 
 }  // namespace surimi

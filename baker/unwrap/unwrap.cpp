@@ -8,7 +8,7 @@
 #include "baker/unwrap/charts.h"
 #include "baker/unwrap/density.h"
 #include "baker/unwrap/existing.h"
-#include "baker/unwrap/fit.h"
+#include "baker/unwrap/fit_pages.h"
 #include "baker/unwrap/half_edge.h"
 #include "baker/unwrap/round_chart.h"
 #include "baker/unwrap/shorten.h"
@@ -26,11 +26,17 @@ struct Work {
     std::vector<FaceGraph> graphs;  ///< of each surface
     std::vector<FlatChart> charts;
     std::vector<ChartWeight> weights;  ///< of each chart
+    Pages pages;
 };
 
 void check_settings(const Scene& scene, const UnwrapSettings& settings) {
     if (triangle_count(scene) == 0) throw Error(ErrorKind::nothing_to_bake, "the scene has no triangle to unwrap");
     if (settings.gutter < 1) throw Error(ErrorKind::usage, "the gutter has to be at least 1 texel");
+    if (settings.atlases < 1 || settings.atlases > 64)
+        throw Error(ErrorKind::usage,
+                    "a scene goes on 1 to 64 atlases, not " + std::to_string(settings.atlases) + "; raise the size");
+    if (settings.atlases > 1 && settings.uv == UvSource::existing)
+        throw Error(ErrorKind::usage, "existing UVs are those of one map; leave out --atlases, or use --uv unwrap");
     constexpr int largest = 16384;
     const bool is_size_fit =
         settings.width >= 1 && settings.height >= 1 && settings.width <= largest && settings.height <= largest;
@@ -111,23 +117,17 @@ std::vector<double> factors_of(const std::vector<ChartWeight>& weights) {
     return factors;
 }
 
-Layout fit(const Work& work, const UnwrapSettings& settings, const Progress& progress, double known) {
-    const std::vector<double> factors = factors_of(work.weights);
-    const FitRequest request{work.charts, factors, settings.gutter, progress};
-    if (settings.texels_per_metre > 0) return fit_to_density(request, settings.texels_per_metre);
-    const MapSize map{settings.width, settings.height};
-    return known > 0 ? fit_near(request, map, known) : fit_to_map(request, map);
-}
-
 Atlas to_atlas(const Scene& scene, const Work& work, const Layout& layout, const std::vector<RoundedChart>& rounded) {
     Atlas atlas;
     atlas.width = layout.map.width;
     atlas.height = layout.map.height;
+    atlas.pages = static_cast<int>(work.pages.densities.size());
     atlas.texels_per_metre = layout.texels_per_metre;
     atlas.surfaces.resize(scene.surfaces.size());
     for (size_t s = 0; s < scene.surfaces.size(); ++s) {
         atlas.surfaces[s].uv.resize(scene.surfaces[s].triangles.size());
         atlas.surfaces[s].chart.resize(scene.surfaces[s].triangles.size());
+        atlas.surfaces[s].page = work.pages.of_surface[s];
     }
     for (uint32_t i = 0; i < work.charts.size(); ++i) {
         const FlatChart& chart = work.charts[i];
@@ -155,19 +155,18 @@ Atlas unwrap(const Scene& scene, const UnwrapSettings& settings, const Progress&
     work.weights = weigh_charts(scene, work.charts, scales);
     shorten_charts(work.graphs, factors_of(work.weights), work.charts);
     work.weights = weigh_charts(scene, work.charts, scales);
-    double known = 0;
     for (int round = 0;; ++round) {
-        const Layout layout = fit(work, settings, progress, known);
+        const std::vector<double> factors = factors_of(work.weights);
+        const FitRequest request{work.charts, factors, settings.gutter, progress};
+        const Layout layout = fit_pages(scene, request, settings, work.pages);
         std::vector<RoundedChart> rounded(work.charts.size());
         parallel_for(work.charts.size(), 16, [&](size_t i) {
             rounded[i] = round_chart(work.charts[i], layout.shapes[i], layout.placements[i], layout.map);
         });
-        if (replace_failed(work, rounded, round)) {
-            known = layout.texels_per_metre;
-            continue;
-        }
+        if (replace_failed(work, rounded, round)) continue;
         Atlas atlas = to_atlas(scene, work, layout, rounded);
         atlas.gutter = settings.gutter;
+        mark_full_pages(work.charts, work.pages, layout.texels_per_metre, work.weights);
         atlas.weights = list_weights(work.charts, work.weights);
         return atlas;
     }

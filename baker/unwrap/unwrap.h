@@ -26,7 +26,7 @@ struct UnwrapSettings {
                                   ///< 16384), and `width`, `height` are not used
     int gutter = 2;               ///< at least 1
     int mips = 0;                 ///< mip levels that gutters survive: one texel of gutter is left on level `mips`
-    int atlases = 1;              ///< maps to spread the surfaces over, each of the size above
+    int atlases = 1;              ///< pages to spread the surfaces over, 1 to 64, each of the size above
     double stretch = 1.5;         ///< above 1: 99 % of a chart's area has at least 1 / stretch of its density in every
                                   ///< direction, and its mean symmetric Dirichlet energy is at most
                                   ///< 4 + 0.4 (stretch - 1)^2
@@ -35,7 +35,7 @@ struct UnwrapSettings {
 };
 
 /// Cuts every surface into charts without flips or overlaps, at one density, and packs them into exactly the size
-/// asked for. Deterministic. Adds nothing to the scene and drops nothing with area. The density follows weigh_charts
+/// asked for, or into several pages of that size. Deterministic. Adds nothing to the scene and drops nothing with area. The density follows weigh_charts
 /// and texel_scales; existing UVs keep their own. Throws Error(nothing_to_bake) when the scene has no triangle,
 /// Error(usage) when the charts cannot fit even at the lowest density (it names the smallest size that can) or a texel
 /// scale names nothing, Error(scene) when existing UVs are unfit (missing, out of [0, 1], overlapping, not finite): the

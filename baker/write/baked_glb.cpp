@@ -27,6 +27,7 @@ struct Placement {
     size_t surface = 0;
     size_t mesh = 0;
     size_t primitive = 0;
+    int page = 0;
     SplitVertices split;
     bool is_in_place = false;      ///< the file's TEXCOORD_1 is what the atlas says: nothing to do
     bool drops_first_set = false;  ///< TEXCOORD_0 was only a stand-in for TEXCOORD_1
@@ -65,6 +66,7 @@ std::vector<Placement> place_meshes(Json& document, const Scene& scene, const At
             placement.surface = s;
             placement.mesh = mesh;
             placement.primitive = primitive;
+            placement.page = atlas.surfaces[s].page;
             placements.push_back(std::move(placement));
         }
     }
@@ -228,31 +230,40 @@ void correct_all_bounds(GltfEdit& edit) {
     }
 }
 
-void add_map(GltfEdit& edit, const Scene& scene, const std::vector<Placement>& placements, const CarriedMap& map,
-             int free_texture) {
-    const std::string name = scene.path.stem().string() + ".visibility";
+/// The page that each placement's materials refer to: that of receivers, and of all where only pages are marked.
+MaterialNeeds material_needs(const Scene& scene, const std::vector<Placement>& placements, bool is_map, int pages) {
+    MaterialNeeds needs;
+    for (const Placement& placement : placements) {
+        const bool refers = is_map ? scene.surfaces[placement.surface].monitor < 0 : pages > 1;
+        needs[{placement.mesh, placement.primitive}] = {refers ? placement.page : -1, placement.moved_set};
+    }
+    return needs;
+}
+
+/// Embeds the maps of the pages that materials need. `free_textures` are places for them.
+MapReference add_map(GltfEdit& edit, const std::string& name, const MaterialNeeds& needs, const CarriedMap& map,
+                     const std::vector<int>& free_textures) {
     MapReference reference;
     reference.channels = Json::array();
     for (const std::string& monitor : map.channels)
         reference.channels.push_back(monitor.empty() ? Json() : Json(monitor));
-    reference.file = name + ".png";
-    MaterialNeeds needs;
-    bool is_carried = false;
-    for (const Placement& placement : placements) {
-        const bool is_receiver = scene.surfaces[placement.surface].monitor < 0;
-        const bool carries = is_receiver && !map.png.empty();
-        is_carried = is_carried || carries;
-        needs[{placement.mesh, placement.primitive}] = {carries, placement.moved_set};
+    for (size_t p = 0; p < map.pngs.size(); ++p) {
+        const std::string page_name = map.pngs.size() > 1 ? name + "." + std::to_string(p) : name;
+        PageReference& page = reference.pages.emplace_back();
+        page.file = page_name + ".png";
+        const bool is_needed = std::any_of(needs.begin(), needs.end(),
+                                           [&](const auto& need) { return need.second.page == static_cast<int>(p); });
+        const int replaced = p < free_textures.size() ? free_textures[p] : -1;
+        if (is_needed) page.texture = add_map_texture(edit, map.pngs[p], page_name, replaced);
     }
-    if (is_carried) reference.texture = add_map_texture(edit, map.png, name, free_texture);
-    assign_materials(edit, needs, reference);
+    return reference;
 }
 
 }  // namespace
 
 std::vector<uint8_t> make_baked_glb(const Scene& scene, const Atlas& atlas, const CarriedMap& map) try {
     GltfEdit edit(scene.path);
-    const int free_texture = remove_carried_map(edit);
+    const std::vector<int> free_textures = remove_carried_map(edit, map.pngs.size());
     std::vector<Placement> placements = place_meshes(edit.json(), scene, atlas);
     for (Placement& placement : placements)
         plan_split(edit, primitive_of(edit.json(), placement), scene.surfaces[placement.surface],
@@ -261,8 +272,11 @@ std::vector<uint8_t> make_baked_glb(const Scene& scene, const Atlas& atlas, cons
     for (const Placement& placement : placements)
         if (!placement.is_in_place) rewrite_primitive(edit, placement);
     correct_all_bounds(edit);
-    add_map(edit, scene, placements, map, free_texture);
-    if (!map.png.empty()) mark_monitors(edit, scene);
+    const MaterialNeeds needs = material_needs(scene, placements, !map.pngs.empty(), atlas.pages);
+    MapReference reference = add_map(edit, scene.path.stem().string() + ".visibility", needs, map, free_textures);
+    reference.pages.resize(static_cast<size_t>(atlas.pages));
+    assign_materials(edit, needs, reference);
+    if (!map.pngs.empty()) mark_monitors(edit, scene);
     return edit.to_glb();
 } catch (const Json::exception& problem) {
     throw Error(ErrorKind::scene, scene.path.string() + ": the file is not the one that was read (" + problem.what() +

@@ -14,18 +14,19 @@
 
 namespace surimi {
 
-/// What a glb carries beside the scene; empty `png`: the UVs alone (`surimi unwrap`).
+/// What a glb carries beside the scene; without `pngs`: the UVs alone (`surimi unwrap`).
 struct CarriedMap {
-    std::span<const uint8_t> png;         ///< the 8-bit sRGB-encoded map
-    std::array<std::string, 3> channels;  ///< monitor node of R, G, B; empty where unused
+    std::vector<std::span<const uint8_t>> pngs;  ///< the 8-bit sRGB-encoded map of each page of the atlas
+    std::array<std::string, 3> channels;         ///< monitor node of R, G, B; empty where unused
 };
 
 /// Reads scene.path again and returns it as a binary glTF in which every placed primitive has the atlas' UVs as
 /// TEXCOORD_1 (vertices split where charts need it, one mesh for each placement), every receiver's material carries
-/// the map (KHR_materials_clearcoat with factor 0, texCoord 1, and extras.visibilityMap), and every monitor's node has
-/// extras.monitor. Everything else of the input is kept: nodes, cameras, skins, animations, extensions, extras, image
-/// bytes. Strips and fans become triangle lists; compressed buffers become plain ones.
-/// Throws Error(scene) when the file cannot be read any more.
+/// the map of its page (KHR_materials_clearcoat with factor 0, texCoord 1, and extras.visibilityMap), and every
+/// monitor's node has extras.monitor. With several pages extras.visibilityMap.page has the number, also without a map,
+/// and a material that is used on several is copied for each. Everything else of the input is kept: nodes, cameras,
+/// skins, animations, extensions, extras, image bytes. Strips and fans become triangle lists; compressed buffers become
+/// plain ones. Throws Error(scene) when the file cannot be read any more.
 std::vector<uint8_t> make_baked_glb(const Scene& scene, const Atlas& atlas, const CarriedMap& map);
 
 }  // namespace surimi

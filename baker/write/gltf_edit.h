@@ -66,6 +66,9 @@ class GltfEdit {
     int add_view(std::vector<uint8_t> bytes, ViewTarget target, size_t stride);
     void replace_view(int view, std::vector<uint8_t> bytes);
 
+    /// Nothing reads the view any more: its place is free.
+    void release_view(int view) { free_views_.insert(view); }
+
     /// True when an extension that Surimi does not know holds this number, which may be an index.
     bool may_be_referenced(int index) const { return foreign_numbers_.count(index) > 0; }
 

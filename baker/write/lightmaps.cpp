@@ -16,10 +16,10 @@ std::string layer_name(const Scene& scene, const Monitor& monitor) {
 
 }  // namespace
 
-Channels lightmap_channels(const Scene& scene, const Bake& bake) {
+Channels lightmap_channels(const Scene& scene, const BakedPage& page) {
     Channels channels;
-    channels.width = bake.atlas.width;
-    channels.height = bake.atlas.height;
+    channels.width = page.map.visibility.width;
+    channels.height = page.map.visibility.height;
     for (const Monitor& monitor : scene.monitors)
         for (const char* quantity : {".shadowed", ".unshadowed", ".error", ".state"})
             channels.names.push_back(layer_name(scene, monitor) + quantity);
@@ -28,9 +28,9 @@ Channels lightmap_channels(const Scene& scene, const Bake& bake) {
     for (size_t i = 0; i < texel_count; ++i)
         for (const Monitor& monitor : scene.monitors) {
             const auto c = static_cast<size_t>(monitor.channel);
-            assert(bake.irradiance[c].pixels.size() == texel_count && bake.state[c].pixels.size() == texel_count);
-            const IrradianceEstimate& estimate = bake.irradiance[c].pixels[i];
-            const auto state = static_cast<float>(bake.state[c].pixels[i]);
+            assert(page.irradiance[c].pixels.size() == texel_count && page.state[c].pixels.size() == texel_count);
+            const IrradianceEstimate& estimate = page.irradiance[c].pixels[i];
+            const auto state = static_cast<float>(page.state[c].pixels[i]);
             channels.values.insert(channels.values.end(),
                                    {estimate.shadowed, estimate.unshadowed, estimate.error, state});
         }

@@ -35,12 +35,17 @@ Json map_section(const Atlas& atlas, const std::vector<ManifestFile>& files) {
                  {"origin", "top-left"},
                  {"texelsPerMetre", atlas.texels_per_metre},
                  {"gutter", atlas.gutter}};
-    for (const ManifestFile& file : files)
-        if (file.role == "visibility") section["files"].push_back(file.name);
+    for (int page = 0; page < atlas.pages && atlas.pages > 1; ++page)
+        section["pages"].push_back({{"page", page}, {"files", Json::array()}});
+    for (const ManifestFile& file : files) {
+        if (file.role != "visibility") continue;
+        section["files"].push_back(file.name);
+        if (atlas.pages > 1) section["pages"][static_cast<size_t>(file.page)]["files"].push_back(file.name);
+    }
     return section;
 }
 
-/// Width, height, left and top of the rectangle that the node's charts lie in.
+/// Width, height, left and top of the rectangle that the surfaces' charts lie in.
 Json rectangle_of(const Atlas& atlas, const std::vector<size_t>& surfaces) {
     Vec2 low(INFINITY);
     Vec2 high(-INFINITY);
@@ -55,16 +60,18 @@ Json rectangle_of(const Atlas& atlas, const std::vector<size_t>& surfaces) {
 }
 
 Json nodes_section(const Scene& scene, const Atlas& atlas) {
-    std::map<int, std::vector<size_t>> surfaces_of_node;
-    for (size_t s = 0; s < scene.surfaces.size(); ++s) surfaces_of_node[scene.surfaces[s].node].push_back(s);
+    std::map<std::pair<int, int>, std::vector<size_t>> surfaces_by_place;
+    for (size_t s = 0; s < scene.surfaces.size(); ++s)
+        surfaces_by_place[{scene.surfaces[s].node, atlas.surfaces[s].page}].push_back(s);
     Json section = Json::array();
-    for (const auto& [node, surfaces] : surfaces_of_node) {
+    for (const auto& [place, surfaces] : surfaces_by_place) {
+        const auto& [node, page] = place;
         Json names = Json::array();
         for (const size_t s : surfaces) names.push_back(scene.surfaces[s].name);
-        section.push_back({{"name", scene.nodes[static_cast<size_t>(node)].name},
-                           {"node", node},
-                           {"surfaces", names},
-                           {"st", rectangle_of(atlas, surfaces)}});
+        Json entry{{"name", scene.nodes[static_cast<size_t>(node)].name}, {"node", node}, {"surfaces", names}};
+        if (atlas.pages > 1) entry["page"] = page;
+        entry["st"] = rectangle_of(atlas, surfaces);
+        section.push_back(std::move(entry));
     }
     return section;
 }
@@ -96,30 +103,44 @@ Json texels_section(const Scene& scene, const Bake& bake) {
                                 std::pair{"filled", TexelState::filled}, std::pair{"empty", TexelState::empty}};
     Json section = Json::object();
     for (const Monitor& monitor : scene.monitors) {
-        const auto& pixels = bake.state[static_cast<size_t>(monitor.channel)].pixels;
-        for (const auto& [name, state] : states)
-            section[channel_name(monitor.channel)][name] = std::count(pixels.begin(), pixels.end(), state);
+        for (const auto& [name, state] : states) {
+            std::ptrdiff_t count = 0;
+            for (const BakedPage& page : bake.pages) {
+                const auto& pixels = page.state[static_cast<size_t>(monitor.channel)].pixels;
+                count += std::count(pixels.begin(), pixels.end(), state);
+            }
+            section[channel_name(monitor.channel)][name] = count;
+        }
     }
     return section;
 }
+
+/// The errors of the measured texels of a channel.
+struct Errors {
+    double sum = 0;
+    double largest = 0;
+    size_t count = 0;
+
+    void add(const Image<TexelState>& state, const Image<IrradianceEstimate>& irradiance) {
+        for (size_t i = 0; i < state.pixels.size(); ++i) {
+            if (state.pixels[i] != TexelState::covered) continue;
+            const double error = irradiance.pixels[i].error;
+            sum += error;
+            largest = std::max(largest, error);
+            ++count;
+        }
+    }
+};
 
 /// The estimated standard error of V over the measured texels of each channel.
 Json error_section(const Scene& scene, const Bake& bake) {
     Json section = Json::object();
     for (const Monitor& monitor : scene.monitors) {
         const auto c = static_cast<size_t>(monitor.channel);
-        double sum = 0;
-        double largest = 0;
-        size_t count = 0;
-        for (size_t i = 0; i < bake.state[c].pixels.size(); ++i) {
-            if (bake.state[c].pixels[i] != TexelState::covered) continue;
-            const double error = bake.irradiance[c].pixels[i].error;
-            sum += error;
-            largest = std::max(largest, error);
-            ++count;
-        }
-        const double mean = count > 0 ? sum / static_cast<double>(count) : 0;
-        section[channel_name(monitor.channel)] = {{"mean", mean}, {"max", largest}};
+        Errors errors;
+        for (const BakedPage& page : bake.pages) errors.add(page.state[c], page.irradiance[c]);
+        const double mean = errors.count > 0 ? errors.sum / static_cast<double>(errors.count) : 0;
+        section[channel_name(monitor.channel)] = {{"mean", mean}, {"max", errors.largest}};
     }
     return section;
 }
@@ -145,10 +166,12 @@ Json notes_section(const Scene& scene) {
     return section;
 }
 
-Json outputs_section(const std::vector<ManifestFile>& files) {
+Json outputs_section(const std::vector<ManifestFile>& files, int page_count) {
     Json section = Json::array();
-    for (const ManifestFile& file : files)
+    for (const ManifestFile& file : files) {
         section.push_back({{"role", file.role}, {"file", file.name}, {"bytes", file.size}, {"hash", file.hash}});
+        if (page_count > 1 && file.page >= 0) section.back()["page"] = file.page;
+    }
     return section;
 }
 
@@ -184,7 +207,7 @@ std::string make_manifest(const Scene& scene, const Bake& bake, const std::strin
                         {"densityWeights", weights_section(scene, bake.atlas)},
                         {"warnings", bake.warnings},
                         {"notes", notes_section(scene)},
-                        {"outputs", outputs_section(files)},
+                        {"outputs", outputs_section(files, bake.atlas.pages)},
                         {"run", {{"stages", stages}}}};
     return manifest.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -21,9 +21,11 @@ struct ManifestFile {
     std::string name;
     size_t size = 0;   ///< bytes
     std::string hash;  ///< content_hash
+    int page = -1;     ///< of the atlas; -1: the file is of all pages
 };
 
-/// The manifest. Everything that differs from run to run (seconds, memory) is in its last member, "run"; the
+/// The manifest. With several pages, the map lists the files of each, and a node has an entry for each page that it
+/// lies on. Everything that differs from run to run (seconds, memory) is in its last member, "run"; the
 /// rest depends on scene and settings alone. `scene_hash` is that of the scene file, `settings_json` an
 /// object.
 std::string make_manifest(const Scene& scene, const Bake& bake, const std::string& settings_json,

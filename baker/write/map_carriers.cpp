@@ -70,8 +70,10 @@ bool is_black(const Json& factor) {
 void take_off_map(Json& material, std::set<int>& textures) {
     if (!material.contains("extras") || !material["extras"].is_object()) return;
     if (!material["extras"].contains(mark)) return;
+    const Json note = std::move(material["extras"][mark]);
     material["extras"].erase(mark);
     if (material["extras"].empty()) material.erase("extras");
+    if (!note.is_object() || !note.contains("channels")) return;  // the page alone was marked
     const auto take_off = [&](const char* extension, const char* texture, bool is_off) {
         if (!is_off) return;
         textures.insert(index_of(material["extensions"][extension].value(texture, Json::object()), "index", INT32_MAX));
@@ -85,19 +87,24 @@ void take_off_map(Json& material, std::set<int>& textures) {
         take_off(sheen, "sheenColorTexture", is_black(cloth->value("sheenColorFactor", Json::array())));
 }
 
-void carry_map(Json& material, const MapReference& map) {
+void carry_map(Json& material, const MapReference& map, int number) {
+    const PageReference& page = map.pages[static_cast<size_t>(number)];
     const bool has_room = !material.contains("extensions") || material["extensions"].is_object();
     // Neither may be combined with layers, their specifications say.
     const bool is_layered = has_room && extension_of(material, "KHR_materials_unlit") == nullptr &&
                             extension_of(material, "KHR_materials_pbrSpecularGlossiness") == nullptr;
-    const Json use{{"index", map.texture}, {"texCoord", 1}};
-    Json note{{"version", 1}, {"encoding", "srgb"}, {"channels", map.channels}};
-    if (is_layered && extension_of(material, clearcoat) == nullptr) {
+    const Json use{{"index", page.texture}, {"texCoord", 1}};
+    Json note{{"version", 1}};
+    if (page.texture >= 0) note.update({{"encoding", "srgb"}, {"channels", map.channels}});
+    if (map.pages.size() > 1) note["page"] = number;
+    if (page.texture < 0) {
+        note["texCoord"] = 1;
+    } else if (is_layered && extension_of(material, clearcoat) == nullptr) {
         material["extensions"][clearcoat] = {{"clearcoatFactor", 0}, {"clearcoatTexture", use}};
     } else if (is_layered && extension_of(material, sheen) == nullptr) {
         material["extensions"][sheen] = {{"sheenColorFactor", {0, 0, 0}}, {"sheenColorTexture", use}};
     } else {
-        note["file"] = map.file;
+        note["file"] = page.file;
         note["texCoord"] = 1;
     }
     if (!material.contains("extras") || material["extras"].is_object()) material["extras"][mark] = std::move(note);
@@ -115,7 +122,7 @@ class MaterialCopies {
     void keep(int material) { taken_.insert(material); }
 
     bool is_needed_as_it_is(int material, const MaterialNeed& need) const {
-        return !need.carries_map && (need.moved_set == 0 || !material_reads_set(original(material), 1));
+        return need.page < 0 && (need.moved_set == 0 || !material_reads_set(original(material), 1));
     }
 
     /// `material` -1: glTF's default.
@@ -123,11 +130,11 @@ class MaterialCopies {
         const bool is_nothing = material >= static_cast<int>(originals_.size());
         if (is_nothing || is_needed_as_it_is(material, need)) return material;
         const int moved_set = material_reads_set(original(material), 1) ? need.moved_set : 0;
-        const auto [entry, is_new] = copies_.try_emplace({material, need.carries_map, moved_set}, material);
+        const auto [entry, is_new] = copies_.try_emplace({material, need.page, moved_set}, material);
         if (!is_new) return entry->second;
         Json copy = original(material);
         if (moved_set > 0) move_set(copy, 1, moved_set);
-        if (need.carries_map) carry_map(copy, map_);
+        if (need.page >= 0) carry_map(copy, map_, need.page);
         if (material < 0 || !taken_.insert(material).second) {
             entry->second = static_cast<int>(materials_.size());
             materials_.push_back(std::move(copy));
@@ -146,7 +153,7 @@ class MaterialCopies {
     Json& materials_;
     const MapReference& map_;
     Json originals_;
-    std::map<std::tuple<int, bool, int>, int> copies_;
+    std::map<std::tuple<int, int, int>, int> copies_;  // of material, page and moved set
     std::set<int> taken_;
 };
 
@@ -181,6 +188,21 @@ int own_image(const GltfEdit& edit, int texture) {
     return is_own ? image : -1;
 }
 
+/// Removes an unused texture and its own image if they are the last of their lists.
+void drop_last_texture(GltfEdit& edit, int texture) {
+    Json& document = edit.json();
+    const int image = own_image(edit, texture);
+    const auto is_last = [&](int index, const char* list) {
+        return index >= 0 && static_cast<size_t>(index) + 1 == list_of(document, list).size();
+    };
+    if (!is_last(texture, "textures") || !is_last(image, "images")) return;
+    edit.release_view(document["images"].back()["bufferView"].get<int>());
+    for (const char* list : {"textures", "images"}) {
+        document[list].erase(document[list].size() - 1);
+        if (document[list].empty()) document.erase(list);
+    }
+}
+
 }  // namespace
 
 bool reads_set(const Json& document, const Json& primitive, int set) {
@@ -192,21 +214,23 @@ bool reads_set(const Json& document, const Json& primitive, int set) {
     return reads;
 }
 
-int remove_carried_map(GltfEdit& edit) {
+std::vector<int> remove_carried_map(GltfEdit& edit, size_t page_count) {
     Json& document = edit.json();
     std::set<int> textures;
-    if (!document.contains("materials")) return -1;
+    if (!document.contains("materials")) return {};
     for (Json& material : document["materials"]) take_off_map(material, textures);
     for (const char* extension : {clearcoat, sheen})
         if (!textures.empty() && !is_used_by_any_material(document, extension))
             declare_extension(document, extension, false);
     for (const Json& material : document["materials"])
         for_each_texture_use(material, [&](const Json& use) { textures.erase(index_of(use, "index", INT32_MAX)); });
+    std::vector<int> unused;
     for (const int texture : textures) {
         const bool exists = texture >= 0 && static_cast<size_t>(texture) < list_of(document, "textures").size();
-        if (exists && !edit.may_be_referenced(texture)) return texture;
+        if (exists && !edit.may_be_referenced(texture)) unused.push_back(texture);
     }
-    return -1;
+    for (; unused.size() > page_count; unused.pop_back()) drop_last_texture(edit, unused.back());
+    return unused;
 }
 
 int add_map_texture(GltfEdit& edit, std::span<const uint8_t> png, const std::string& name, int replaced) {
@@ -254,7 +278,7 @@ void assign_materials(GltfEdit& edit, const MaterialNeeds& needs, const MapRefer
         });
     });
     for_each_primitive([&](Json& primitive, const MaterialNeed& need) {
-        const bool lacks_material = need.carries_map && !primitive.contains("material");
+        const bool lacks_material = need.page >= 0 && !primitive.contains("material");
         for_each_material(primitive, [&](Json& material) { material = copies.get(material.get<int>(), need); });
         if (lacks_material) primitive["material"] = copies.get(-1, need);
     });

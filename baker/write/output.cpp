@@ -27,8 +27,7 @@ namespace {
 
 void check_targets(const OutputPaths& paths, const std::filesystem::path& input) {
     std::error_code ignored;
-    for (const auto& path :
-         {paths.visibility_exr, paths.visibility_png, paths.lightmaps_exr, paths.baked_glb, paths.manifest_json}) {
+    for (const auto& path : paths.all()) {
         if (std::filesystem::equivalent(path, input, ignored))
             throw_cannot_write(path, "it is the input; choose another folder with -o");
         // Renaming onto a folder fails, and only after other files have their names already.
@@ -77,8 +76,8 @@ void write_exact(const Draft& draft, std::span<const uint8_t> bytes) {
     draft.require(back && std::equal(back->begin(), back->end(), bytes.begin(), bytes.end()), "it has other bytes");
 }
 
-void write_evidence(const Draft& draft, const Scene& scene, const Bake& bake) {
-    const Channels channels = lightmap_channels(scene, bake);
+void write_evidence(const Draft& draft, const Scene& scene, const BakedPage& page) {
+    const Channels channels = lightmap_channels(scene, page);
     write_lightmaps(draft.temporary, channels);
     const Channels back = read_channels(draft.temporary);
     const size_t count = channels.names.size();
@@ -115,8 +114,8 @@ bool has_atlas(const Scene& baked, const Atlas& atlas) {
     return true;
 }
 
-void write_baked_scene(const Draft& draft, const Scene& scene, const Bake& bake, std::span<const uint8_t> png) {
-    write_exact(draft, make_baked_glb(scene, bake.atlas, {png, bake.map.monitors}));
+void write_baked_scene(const Draft& draft, const Scene& scene, const Bake& bake, const CarriedMap& map) {
+    write_exact(draft, make_baked_glb(scene, bake.atlas, map));
     try {
         const Scene back = read_gltf(draft.temporary);
         draft.require(back.surfaces.size() >= scene.surfaces.size() &&
@@ -130,23 +129,37 @@ void write_baked_scene(const Draft& draft, const Scene& scene, const Bake& bake,
     }
 }
 
-ManifestFile describe(const Draft& draft, const char* role) {
+ManifestFile describe(const Draft& draft, const char* role, int page = -1) {
     const auto bytes = read_file(draft.temporary);
     draft.require(bytes.has_value(), "it is gone");
-    return {role, draft.path.filename().string(), bytes->size(), content_hash(*bytes)};
+    return {role, draft.path.filename().string(), bytes->size(), content_hash(*bytes), page};
 }
 
 }  // namespace
 
-OutputPaths output_paths(const std::filesystem::path& out, const std::filesystem::path& scene) {
+std::vector<std::filesystem::path> OutputPaths::all() const {
+    std::vector<std::filesystem::path> paths;
+    for (const PagePaths& page : pages)
+        paths.insert(paths.end(), {page.visibility_exr, page.visibility_png, page.lightmaps_exr});
+    paths.insert(paths.end(), {baked_glb, manifest_json});
+    return paths;
+}
+
+OutputPaths output_paths(const std::filesystem::path& out, const std::filesystem::path& scene, size_t page_count) {
     const std::string name = scene.stem().string();
-    return {out / (name + ".visibility.exr"), out / (name + ".visibility.png"), out / (name + ".lightmaps.exr"),
-            out / (name + ".baked.glb"), out / (name + ".visibility.json")};
+    OutputPaths paths{{}, out / (name + ".baked.glb"), out / (name + ".visibility.json")};
+    for (size_t page = 0; page < page_count; ++page) {
+        const std::string number = page_count > 1 ? "." + std::to_string(page) : "";
+        paths.pages.push_back({out / (name + ".visibility" + number + ".exr"),
+                               out / (name + ".visibility" + number + ".png"),
+                               out / (name + ".lightmaps" + number + ".exr")});
+    }
+    return paths;
 }
 
 OutputPaths write_bake(const std::filesystem::path& out, const Scene& scene, const Bake& bake,
                        const std::string& settings_json) {
-    const OutputPaths paths = output_paths(out, scene.path);
+    const OutputPaths paths = output_paths(out, scene.path, bake.pages.size());
     check_targets(paths, scene.path);
     make_folder(out);
     const auto input = read_file(scene.path);
@@ -155,18 +168,26 @@ OutputPaths write_bake(const std::filesystem::path& out, const Scene& scene, con
 
     PendingFiles pending;
     const auto draft = [&](const std::filesystem::path& path) { return Draft{pending.add(path), path}; };
-    const Draft exr = draft(paths.visibility_exr);
-    write_visibility_exr(exr, bake.map);
-    const std::vector<uint8_t> png_bytes = encode_map_png(bake.map);
-    const Draft png = draft(paths.visibility_png);
-    write_exact(png, png_bytes);
-    const Draft lightmaps = draft(paths.lightmaps_exr);
-    write_evidence(lightmaps, scene, bake);
+    std::vector<ManifestFile> files;
+    std::vector<std::vector<uint8_t>> pngs;
+    for (size_t p = 0; p < bake.pages.size(); ++p) {
+        const BakedPage& page = bake.pages[p];
+        const Draft exr = draft(paths.pages[p].visibility_exr);
+        write_visibility_exr(exr, page.map);
+        pngs.push_back(encode_map_png(page.map));
+        const Draft png = draft(paths.pages[p].visibility_png);
+        write_exact(png, pngs.back());
+        const Draft lightmaps = draft(paths.pages[p].lightmaps_exr);
+        write_evidence(lightmaps, scene, page);
+        const int number = static_cast<int>(p);
+        for (const ManifestFile& file : {describe(exr, "visibility", number), describe(png, "visibility", number),
+                                         describe(lightmaps, "lightmaps", number)})
+            files.push_back(file);
+    }
     const Draft glb = draft(paths.baked_glb);
-    write_baked_scene(glb, scene, bake, png_bytes);
+    write_baked_scene(glb, scene, bake, {{pngs.begin(), pngs.end()}, bake.pages[0].map.monitors});
+    files.push_back(describe(glb, "bakedGlb"));
 
-    const std::vector<ManifestFile> files{describe(exr, "visibility"), describe(png, "visibility"),
-                                          describe(lightmaps, "lightmaps"), describe(glb, "bakedGlb")};
     const std::string manifest = make_manifest(scene, bake, settings_json, content_hash(*input), files);
     write_exact(draft(paths.manifest_json), {reinterpret_cast<const uint8_t*>(manifest.data()), manifest.size()});
     pending.commit();

@@ -36,6 +36,14 @@ int thread_count() {
     return static_cast<int>(std::max<size_t>(1, limit));
 }
 
+Progress part_of(const Progress& progress, size_t part, size_t count) {
+    if (count == 1 || !progress.report) return progress;
+    const auto report = [whole = progress.report, part, count](std::string_view stage, double fraction) {
+        whole(stage, (static_cast<double>(part) + fraction) / static_cast<double>(count));
+    };
+    return {report, progress.is_cancelled};
+}
+
 void parallel_ranges(size_t count, size_t grain, const std::function<void(size_t, size_t)>& body) {
     grain = std::max<size_t>(1, grain);
     const size_t ranges = (count + grain - 1) / grain;

@@ -19,6 +19,9 @@ struct Progress {
     std::function<bool()> is_cancelled;                                   ///< may be empty: never
 };
 
+/// For a stage that is done in `count` equal parts: what part number `part` tells, as progress of the whole.
+Progress part_of(const Progress& progress, size_t part, size_t count);
+
 /// Calls `body(begin, end)` on ranges that together cover [0, count), each at most `grain` long, on several threads.
 /// Exceptions of `body` reach the caller.
 void parallel_ranges(size_t count, size_t grain, const std::function<void(size_t, size_t)>& body);

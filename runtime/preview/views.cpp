@@ -37,17 +37,18 @@ Vec3 unshadowed(const Scene& scene, const SurfacePoint& at) {
 Vec3 view_color(const Lighting& lighting, const ShadingPoint& point, Show show) {
     const Vec2 uv = lightmap_uv(lighting.scene, point.at);
     const bool has_uv = std::isfinite(uv.x + uv.y);
+    const VisibilityMap* map = map_at(lighting.scene, lighting.pages, point.at);
     switch (show) {
         case Show::visibility:
-            return baked_visibility(lighting.scene, lighting.map, point.at);
+            return baked_visibility(lighting.scene, lighting.pages, point.at);
         case Show::unshadowed:
             return unshadowed(lighting.scene, point.at);
         case Show::shadowed:
-            return unshadowed(lighting.scene, point.at) * baked_visibility(lighting.scene, lighting.map, point.at);
+            return unshadowed(lighting.scene, point.at) * baked_visibility(lighting.scene, lighting.pages, point.at);
         case Show::uv:
             return has_uv ? Vec3(uv, 0) : Vec3(0);
         case Show::texels:
-            return has_uv && !lighting.map.visibility.empty() ? texel_color(lighting.map, uv) : Vec3(0);
+            return has_uv && map != nullptr ? texel_color(*map, uv) : Vec3(0);
         case Show::normals:
             return 0.5 * (point.normal + 1.0);
         case Show::roughness:

@@ -106,6 +106,8 @@ void read_visibility_map(const GltfDocument& document, const json& source, Mater
         if (channels.is_array() && channels[c].is_string())
             material.visibility_channels[c] = channels[c].get<std::string>();
     material.visibility_is_srgb = member(map, "encoding") == "srgb";
+    constexpr int most_pages = 1024;  // far more than a bake makes: what is above is damage
+    material.visibility_page = whole_or(map, "page", 0, most_pages);
     // Tools renumber textures and UV sets, but only in the carrier: sheen where the material has a clearcoat of its
     // own.
     const json& extensions = member(source, "extensions");

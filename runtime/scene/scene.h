@@ -53,6 +53,7 @@ struct Material {
     TextureUse visibility_map;          ///< the map that a baked file carries (extras.visibilityMap and its carrier)
     std::array<std::string, 3> visibility_channels;  ///< monitor of R, G, B; empty where unused
     bool visibility_is_srgb = false;                 ///< the carried map is sRGB-encoded
+    int visibility_page = 0;                         ///< which of a bake's maps it is (extras.visibilityMap.page)
 };
 
 /// What extras.texel_scale may be.

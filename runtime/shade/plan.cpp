@@ -7,7 +7,8 @@
 
 namespace surimi {
 
-ShadingPlan plan_shading(const Scene& scene, const std::vector<LitMonitor>& lights, const VisibilityMap& map) {
+ShadingPlan plan_shading(const Scene& scene, const std::vector<LitMonitor>& lights,
+                         const std::vector<VisibilityMap>& pages) {
     ShadingPlan plan;
     for (size_t m = 0; m < scene.monitors.size(); ++m) {
         MonitorPlan monitor;
@@ -15,15 +16,18 @@ ShadingPlan plan_shading(const Scene& scene, const std::vector<LitMonitor>& ligh
         monitor.has_picture = lights[m].picture.has_value();
         float darkest = 1;
         size_t dark = 0;
-        for (const Vec3f& v : map.visibility.pixels) {
-            const float own = v[scene.monitors[m].channel];
-            darkest = std::min(darkest, own);
-            dark += own == 0;
+        size_t texels = 0;
+        for (const VisibilityMap& page : pages) {
+            texels += page.visibility.pixels.size();
+            for (const Vec3f& v : page.visibility.pixels) {
+                const float own = v[scene.monitors[m].channel];
+                darkest = std::min(darkest, own);
+                dark += own == 0;
+            }
         }
         monitor.darkest = static_cast<double>(darkest);
         monitor.is_ever_blocked = darkest < 1;
-        monitor.dark_share =
-            static_cast<double>(dark) / static_cast<double>(std::max<size_t>(1, map.visibility.pixels.size()));
+        monitor.dark_share = static_cast<double>(dark) / static_cast<double>(std::max<size_t>(1, texels));
         plan.monitors.push_back(monitor);
     }
     for (const Material& material : scene.materials) {

@@ -14,7 +14,7 @@ struct MonitorPlan {
     bool is_lit = true;           ///< its radiance is not 0; else nothing of it is computed
     bool is_ever_blocked = true;  ///< some texel of its channel is below 1; else the map is not read for it
     double darkest = 0;           ///< least V in its channel
-    double dark_share = 0;        ///< share of the map's texels where V is 0: nothing is computed there
+    double dark_share = 0;        ///< share of the maps' texels where V is 0: nothing is computed there
     bool has_picture = false;     ///< it shows an image, so a lookup goes with each integral
 };
 
@@ -24,8 +24,9 @@ struct ShadingPlan {
     std::vector<bool> is_diffuse;       ///< it has a Lambert part: not a metal throughout
 };
 
-/// Without a map no monitor counts as blocked.
-ShadingPlan plan_shading(const Scene& scene, const std::vector<LitMonitor>& lights, const VisibilityMap& map);
+/// `pages` are the maps of a bake, by page. Without one no monitor counts as blocked.
+ShadingPlan plan_shading(const Scene& scene, const std::vector<LitMonitor>& lights,
+                         const std::vector<VisibilityMap>& pages);
 
 /// What was computed and what was not, over all points of one monitor.
 struct MonitorCounts {

@@ -55,7 +55,8 @@ void shade_as_published(const Lighting& lighting, std::span<const ShadingPoint> 
             ++counts[m].diffuse;
             ++counts[m].specular;
             counts[m].map_reads += is_baked;
-            const double v = is_baked ? baked_visibility(lighting.scene, lighting.map, point.at)[monitor.channel] : 1.0;
+            const double v =
+                is_baked ? baked_visibility(lighting.scene, lighting.pages, point.at)[monitor.channel] : 1.0;
             if (is_finite(sum.diffuse) && is_finite(sum.specular))
                 reflected[i] += (lighting.lights[m].radiance * v) * sum;
             else

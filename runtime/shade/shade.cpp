@@ -55,7 +55,7 @@ Prepared prepare(const Lighting& lighting, std::span<const ShadingPoint> points)
     prepared.visibility.assign(points.size(), Vec3(1));
     if (reads_map)
         for (size_t i = 0; i < points.size(); ++i)
-            prepared.visibility[i] = baked_visibility(lighting.scene, lighting.map, points[i].at);
+            prepared.visibility[i] = baked_visibility(lighting.scene, lighting.pages, points[i].at);
     return prepared;
 }
 
@@ -216,14 +216,14 @@ void shade_by_brute_force(const Lighting& lighting, std::span<const ShadingPoint
 
 }  // namespace
 
-Lighting::Lighting(const Scene& scene_, const VisibilityMap& map_, const RayScene& rays_,
+Lighting::Lighting(const Scene& scene_, const std::vector<VisibilityMap>& pages_, const RayScene& rays_,
                    std::vector<LitMonitor> lights_, const LightingSettings& settings_)
     : scene(scene_),
-      map(map_),
+      pages(pages_),
       rays(rays_),
       lights(std::move(lights_)),
       settings(settings_),
-      plan(plan_shading(scene, lights, map)) {
+      plan(plan_shading(scene, lights, pages)) {
     for (size_t m = 0; m < scene.monitors.size(); ++m) {
         samplers.emplace_back(scene.monitors[m]);
         pieces.push_back(pieces_of(scene.monitors[m], lights[m].picture ? settings.picture_cells : 1));

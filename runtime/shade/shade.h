@@ -39,11 +39,11 @@ struct LightingSettings {
 
 /// A scene with its lights as they shine now. Refers to its parts; they must outlive it.
 struct Lighting {
-    Lighting(const Scene& scene, const VisibilityMap& map, const RayScene& rays, std::vector<LitMonitor> lights,
-             const LightingSettings& settings);
+    Lighting(const Scene& scene, const std::vector<VisibilityMap>& pages, const RayScene& rays,
+             std::vector<LitMonitor> lights, const LightingSettings& settings);
 
     const Scene& scene;
-    const VisibilityMap& map;
+    const std::vector<VisibilityMap>& pages;  ///< the maps of a bake; empty: none
     const RayScene& rays;
     std::vector<LitMonitor> lights;
     LightingSettings settings;

@@ -22,9 +22,9 @@ TEST(Furnace, WithNothingInTheWayEveryLitTexelIsExactlyOne_M3) {
     test::add_monitor(scene, "Monitor_R", 0, {0, 0, -2.49}, {0.8, 0, 0}, {0, 0.45, 0});
     const Bake result = bake(scene, small(128, 64), {});
     size_t covered = 0;
-    for (size_t i = 0; i < result.map.visibility.pixels.size(); ++i) {
-        EXPECT_EQ(result.map.visibility.pixels[i], Vec3f(1)) << i;  // filled texels and unused channels too
-        covered += result.state[0].pixels[i] == TexelState::covered;
+    for (size_t i = 0; i < result.pages[0].map.visibility.pixels.size(); ++i) {
+        EXPECT_EQ(result.pages[0].map.visibility.pixels[i], Vec3f(1)) << i;  // filled texels and unused channels too
+        covered += result.pages[0].state[0].pixels[i] == TexelState::covered;
     }
     EXPECT_GT(covered, 1000u);
 }
@@ -39,8 +39,8 @@ TEST(ClosedBox, ARoomWithinARoomIsExactlyDarkOutside_M3) {
     const Texels texels = find_texels(scene, result.atlas);
     size_t dark = 0, lit = 0;
     for (const Texel& texel : texels.texels) {
-        if (result.state[0].pixels[texel.index] != TexelState::covered) continue;
-        const float v = result.map.visibility.pixels[texel.index].x;
+        if (result.pages[0].state[0].pixels[texel.index] != TexelState::covered) continue;
+        const float v = result.pages[0].map.visibility.pixels[texel.index].x;
         if (result.atlas.charts[texel.chart].surface == outer) {
             EXPECT_EQ(v, 0.f) << texel.index;
             ++dark;
@@ -62,7 +62,7 @@ TEST(ClosedBox, AMonitorDoesNotBlockItselfButBlocksTheOthers_M2) {
     size_t seen = 0;
     for (const Texel& texel : find_texels(scene, result.atlas).texels) {
         if (result.atlas.charts[texel.chart].surface != floor) continue;
-        EXPECT_EQ(result.map.visibility.pixels[texel.index], Vec3f(0, 1, 1));
+        EXPECT_EQ(result.pages[0].map.visibility.pixels[texel.index], Vec3f(0, 1, 1));
         ++seen;
     }
     EXPECT_GT(seen, 100u);
@@ -75,13 +75,14 @@ TEST(Bake, TheSameBytesForOneThreadAndForMany) {
     set_thread_count(7);
     const Bake many = bake(scene, small(128, 32), {});
     set_thread_count(0);
-    ASSERT_EQ(one.map.visibility.pixels.size(), many.map.visibility.pixels.size());
-    EXPECT_EQ(one.map.visibility.pixels, many.map.visibility.pixels);
+    ASSERT_EQ(one.pages[0].map.visibility.pixels.size(), many.pages[0].map.visibility.pixels.size());
+    EXPECT_EQ(one.pages[0].map.visibility.pixels, many.pages[0].map.visibility.pixels);
     for (size_t c = 0; c < 2; ++c) {
-        EXPECT_EQ(one.state[c].pixels, many.state[c].pixels);
-        for (size_t i = 0; i < one.irradiance[c].pixels.size(); ++i) {
-            EXPECT_EQ(one.irradiance[c].pixels[i].shadowed, many.irradiance[c].pixels[i].shadowed);
-            EXPECT_EQ(one.irradiance[c].pixels[i].unshadowed, many.irradiance[c].pixels[i].unshadowed);
+        EXPECT_EQ(one.pages[0].state[c].pixels, many.pages[0].state[c].pixels);
+        for (size_t i = 0; i < one.pages[0].irradiance[c].pixels.size(); ++i) {
+            EXPECT_EQ(one.pages[0].irradiance[c].pixels[i].shadowed, many.pages[0].irradiance[c].pixels[i].shadowed);
+            EXPECT_EQ(one.pages[0].irradiance[c].pixels[i].unshadowed,
+                      many.pages[0].irradiance[c].pixels[i].unshadowed);
         }
     }
 }
@@ -90,7 +91,7 @@ TEST(Bake, ColourAndIntensityDoNotChangeTheMap) {
     Scene scene = test::kanikama_room();
     const Bake before = bake(scene, small(64, 16), {});
     scene.monitors[0].radiance = {1000, 3, 0.01};
-    EXPECT_EQ(before.map.visibility.pixels, bake(scene, small(64, 16), {}).map.visibility.pixels);
+    EXPECT_EQ(before.pages[0].map.visibility.pixels, bake(scene, small(64, 16), {}).pages[0].map.visibility.pixels);
 }
 
 TEST(Bake, StopsWhenCancelled) {

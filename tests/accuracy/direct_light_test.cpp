@@ -18,7 +18,7 @@ namespace {
 /// A floor, a monitor that stands on it upright behind, and a box between.
 struct Stage {
     Scene scene;
-    VisibilityMap map;
+    std::vector<VisibilityMap> pages{1};
     explicit Stage(bool has_box = false) {
         test::add_quad(scene, "Floor", {-4, 0, 4}, {4, 0, 4}, {4, 0, -4}, {-4, 0, -4});
         test::add_monitor(scene, "Monitor_R", 0, {0, 1, -2}, {1, 0, 0}, {0, 0.6, 0});

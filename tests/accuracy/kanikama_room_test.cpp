@@ -103,7 +103,7 @@ TEST(KanikamaRoom, MeanAbsoluteErrorBelowThreeThousandths_M6) {
                 if (form_factor < 1e-5) continue;
                 const auto& uv = result.atlas.surfaces[0].uv[t];
                 const Vec2 at = b.x * Vec2(uv[0]) + b.y * Vec2(uv[1]) + b.z * Vec2(uv[2]);
-                errors[m][i] = std::abs(look_up(result.map, at)[static_cast<int>(m)] - visibility);
+                errors[m][i] = std::abs(look_up(result.pages[0].map, at)[static_cast<int>(m)] - visibility);
             }
         });
     }

@@ -22,7 +22,7 @@ inline const std::vector<uint8_t> png{
     0xD3, 0xD2, 0x10, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4E, 0x44, 0xAE, 0x42, 0x60, 0x82};
 inline const std::string png_base64 =
     "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGNoaGgAAAMEAYFL09IQAAAAAElFTkSuQmCC";
-inline const CarriedMap map_of_screen{png, {"Screen", "", ""}};
+inline const CarriedMap map_of_screen{{png}, {"Screen", "", ""}};
 
 /// Every triangle alone: all vertices are split.
 inline Atlas scattered_atlas(const Scene& scene) {

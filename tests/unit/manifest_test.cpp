@@ -39,13 +39,14 @@ struct SmallBake {
         bake.atlas.texels_per_metre = 8;
         bake.atlas.surfaces = {{{{Vec2f(0.25f, 0.5f), Vec2f(0.75f, 0.5f), Vec2f(0.25f, 0.625f)}}, {0}}};
         bake.atlas.weights = {{0, DensityCause::far, 3, 8, 0.5, 0.25, 0.125, 0.75}};
-        bake.state[1] = Image<TexelState>(2, 2, TexelState::covered);
-        bake.state[1].pixels[2] = TexelState::unlit;
-        bake.state[1].pixels[3] = TexelState::filled;
-        bake.irradiance[1] = Image<IrradianceEstimate>(2, 2);
-        bake.irradiance[1].pixels[0].error = 0.25f;
-        bake.irradiance[1].pixels[1].error = 0.5f;
-        bake.irradiance[1].pixels[2].error = 9;  // not a measured texel
+        BakedPage& page = bake.pages.emplace_back();
+        page.state[1] = Image<TexelState>(2, 2, TexelState::covered);
+        page.state[1].pixels[2] = TexelState::unlit;
+        page.state[1].pixels[3] = TexelState::filled;
+        page.irradiance[1] = Image<IrradianceEstimate>(2, 2);
+        page.irradiance[1].pixels[0].error = 0.25f;
+        page.irradiance[1].pixels[1].error = 0.5f;
+        page.irradiance[1].pixels[2].error = 9;  // not a measured texel
         bake.costs = {{"unwrap", 0.5, 0, 1000}, {"light from Screen", 2, 77, 2000}};
         bake.warnings = {"Screen faces a wall"};
     }

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <thread>
@@ -42,13 +41,14 @@ struct FinishedBake {
 
         bake.atlas.width = bake.atlas.height = 4;
         bake.atlas.surfaces = {{{{Vec2f(0.1f, 0.1f), Vec2f(0.9f, 0.1f), Vec2f(0.1f, 0.9f)}}, {0}}};
-        bake.map.visibility = Image<Vec3f>(4, 4, Vec3f(1));
-        bake.map.monitors[1] = "Screen";
-        bake.state[1] = Image<TexelState>(4, 4, TexelState::covered);
-        bake.irradiance[1] = Image<IrradianceEstimate>(4, 4);
+        BakedPage& page = bake.pages.emplace_back();
+        page.map.visibility = Image<Vec3f>(4, 4, Vec3f(1));
+        page.map.monitors[1] = "Screen";
+        page.state[1] = Image<TexelState>(4, 4, TexelState::covered);
+        page.irradiance[1] = Image<IrradianceEstimate>(4, 4);
         for (size_t i = 0; i < 16; ++i) {
-            bake.map.visibility.pixels[i].y = static_cast<float>(i) / 15;
-            bake.irradiance[1].pixels[i] = {0.3f, 0.01f * static_cast<float>(i), 0.001f};
+            page.map.visibility.pixels[i].y = static_cast<float>(i) / 15;
+            page.irradiance[1].pixels[i] = {0.3f, 0.01f * static_cast<float>(i), 0.001f};
         }
         bake.costs = {{"unwrap", 0.1, 0, 1}};
     }
@@ -77,10 +77,11 @@ ErrorKind error_of(const Action& action) {
 }
 
 TEST(Output, NamesFollowTheScene) {
-    const OutputPaths paths = output_paths("out", "scenes/my.room.gltf");
-    EXPECT_EQ(paths.visibility_exr, "out/my.room.visibility.exr");
-    EXPECT_EQ(paths.visibility_png, "out/my.room.visibility.png");
-    EXPECT_EQ(paths.lightmaps_exr, "out/my.room.lightmaps.exr");
+    const OutputPaths paths = output_paths("out", "scenes/my.room.gltf", 1);
+    ASSERT_EQ(paths.pages.size(), 1u);
+    EXPECT_EQ(paths.pages[0].visibility_exr, "out/my.room.visibility.exr");
+    EXPECT_EQ(paths.pages[0].visibility_png, "out/my.room.visibility.png");
+    EXPECT_EQ(paths.pages[0].lightmaps_exr, "out/my.room.lightmaps.exr");
     EXPECT_EQ(paths.baked_glb, "out/my.room.baked.glb");
     EXPECT_EQ(paths.manifest_json, "out/my.room.visibility.json");
 }
@@ -89,17 +90,17 @@ TEST(Output, AllFilesAreThereAndNothingElse) {
     const FinishedBake finished;
     const OutputPaths paths = finished.write();
     EXPECT_EQ(finished.file_count(), 5u);
-    const VisibilityMap map = read_map_exr(paths.visibility_exr);
+    const VisibilityMap map = read_map_exr(paths.pages[0].visibility_exr);
     EXPECT_EQ(map.visibility.pixels[0], Vec3f(1, 0, 1)) << "0 and 1 are exact";
     EXPECT_EQ(map.visibility.pixels[15], Vec3f(1, 1, 1));
-    EXPECT_EQ(decode_image(content(paths.visibility_png), "x.png").width, 4);
+    EXPECT_EQ(decode_image(content(paths.pages[0].visibility_png), "x.png").width, 4);
     EXPECT_EQ(triangle_count(read_gltf(paths.baked_glb)), 1u + 2u) << "the wall, and the monitor of the configuration";
     EXPECT_TRUE(Json::parse(content(paths.manifest_json)).contains("run"));
 }
 
 TEST(Output, EvidenceHasALayerForEachMonitor) {
     const FinishedBake finished;
-    const Channels channels = read_channels(finished.write().lightmaps_exr);
+    const Channels channels = read_channels(finished.write().pages[0].lightmaps_exr);
     ASSERT_EQ(channels.names.size(), 4u);
     const auto value = [&](const std::string& name, size_t texel) {
         const auto found = std::find(channels.names.begin(), channels.names.end(), name);
@@ -116,9 +117,9 @@ TEST(Output, MonitorsOfOneNameHaveLayersOfTheirOwn) {
     FinishedBake finished;
     finished.scene.monitors.push_back(finished.scene.monitors[0]);
     finished.scene.monitors[1].channel = 2;
-    finished.bake.state[2] = finished.bake.state[1];
-    finished.bake.irradiance[2] = finished.bake.irradiance[1];
-    const Channels channels = lightmap_channels(finished.scene, finished.bake);
+    finished.bake.pages[0].state[2] = finished.bake.pages[0].state[1];
+    finished.bake.pages[0].irradiance[2] = finished.bake.pages[0].irradiance[1];
+    const Channels channels = lightmap_channels(finished.scene, finished.bake.pages[0]);
     EXPECT_EQ(channels.names[0], "Screen_G.shadowed");
     EXPECT_EQ(channels.names[4], "Screen_B.shadowed");
 }
@@ -136,8 +137,8 @@ TEST(Output, ManifestHashesWhatIsOnTheDisk) {
 TEST(Output, SameBakeSameBytes) {
     const FinishedBake finished;
     const OutputPaths paths = finished.write();
-    const std::array all{paths.visibility_exr, paths.visibility_png, paths.lightmaps_exr, paths.baked_glb,
-                         paths.manifest_json};
+    const std::vector<std::filesystem::path> all = paths.all();
+    ASSERT_EQ(all.size(), 5u);
     std::vector<std::vector<uint8_t>> first;
     for (const auto& path : all) first.push_back(content(path));
     // Libraries like to write the time into files; it has to differ for that to show.
@@ -172,17 +173,17 @@ TEST(Output, AFileWhereTheFolderShouldBeIsAnError) {
 TEST(Output, AFailureHalfwayLeavesTheOldFilesAndNoTemporaries) {
     FinishedBake finished;
     const OutputPaths paths = finished.write();
-    const auto before = content(paths.visibility_exr);
-    finished.bake.map.visibility.pixels[3] = Vec3f(0.5f);
+    const auto before = content(paths.pages[0].visibility_exr);
+    finished.bake.pages[0].map.visibility.pixels[3] = Vec3f(0.5f);
     std::filesystem::remove(finished.scene.path);  // the glb cannot be made any more
     EXPECT_EQ(error_of([&] { finished.write(); }), ErrorKind::scene);
-    EXPECT_EQ(content(paths.visibility_exr), before);
+    EXPECT_EQ(content(paths.pages[0].visibility_exr), before);
     EXPECT_EQ(finished.file_count(), 5u);
 }
 
 TEST(Output, ValuesThatTheFileCannotHoldAreFound) {
     FinishedBake finished;
-    finished.bake.map.visibility.pixels[3].x = NAN;
+    finished.bake.pages[0].map.visibility.pixels[3].x = NAN;
     EXPECT_THROW(finished.write(), Error);
     EXPECT_EQ(finished.file_count(), 0u);
 }

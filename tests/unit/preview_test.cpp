@@ -13,15 +13,15 @@ namespace {
 /// A white floor under a coloured monitor, and a map that halves the light on its right half.
 struct Stage {
     Scene scene;
-    VisibilityMap map;
+    std::vector<VisibilityMap> pages{1};
     Stage() {
         const uint32_t floor = test::add_quad(scene, "Floor", {-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1});
         scene.surfaces[floor].uv_sets.assign(2, {{0, 0}, {1, 0}, {1, 1}, {0, 1}});
         test::add_monitor(scene, "Monitor_G", 1, {0, 2, 0}, {0.5, 0, 0}, {0, 0, 0.5});
         scene.monitors[0].radiance = {3, 2, 1};
-        map.visibility = Image<Vec3f>(64, 64, Vec3f(1));
+        pages[0].visibility = Image<Vec3f>(64, 64, Vec3f(1));
         for (int y = 0; y < 64; ++y)
-            for (int x = 32; x < 64; ++x) map.visibility.at(x, y) = Vec3f(1, 0.5f, 1);
+            for (int x = 32; x < 64; ++x) pages[0].visibility.at(x, y) = Vec3f(1, 0.5f, 1);
         Material& matte = scene.materials.emplace_back();
         matte.metallic = 0;
         matte.specular = 0;
@@ -29,9 +29,9 @@ struct Stage {
     }
 };
 
-Lighting lighting_of(const Scene& scene, const VisibilityMap& map, const RayScene& rays,
+Lighting lighting_of(const Scene& scene, const std::vector<VisibilityMap>& pages, const RayScene& rays,
                      const LightingSettings& settings = {}) {
-    return Lighting(scene, map, rays, lit_monitors(scene), settings);
+    return Lighting(scene, pages, rays, lit_monitors(scene), settings);
 }
 
 /// What a ray sees, shaded.
@@ -50,7 +50,7 @@ Seen look(const Lighting& lighting, const Vec3& eye, const Vec3& direction, Show
 TEST(Preview, ShowsAlbedoTimesShadowedIrradiance) {
     const Stage stage;
     const RayScene rays(stage.scene);
-    const Lighting lighting = lighting_of(stage.scene, stage.map, rays);
+    const Lighting lighting = lighting_of(stage.scene, stage.pages, rays);
     for (const double x : {-0.5, 0.5}) {
         const Seen seen = look(lighting, {x, 1, 0}, {0, -1, 0}, Show::lit);
         const double e = test::irradiance_by_quadrature(stage.scene.monitors[0].panels[0], {x, 0, 0}, {0, 1, 0}, 200);
@@ -64,7 +64,7 @@ TEST(Preview, ShowsAlbedoTimesShadowedIrradiance) {
 TEST(Preview, EachChannelShowsItsOwnMonitor) {
     const Stage stage;
     const RayScene rays(stage.scene);
-    const Lighting lighting = lighting_of(stage.scene, stage.map, rays);
+    const Lighting lighting = lighting_of(stage.scene, stage.pages, rays);
     const Seen v = look(lighting, {0.5, 1, 0}, {0, -1, 0}, Show::visibility);
     EXPECT_NEAR(glm::length(v.color - Vec3(1, 0.5, 1)), 0, 1e-6);
     const Seen e = look(lighting, {0.5, 1, 0}, {0, -1, 0}, Show::unshadowed);
@@ -77,10 +77,10 @@ TEST(Preview, EachChannelShowsItsOwnMonitor) {
 TEST(Preview, DoesNotSeeBackFacesOfSingleSidedMaterials) {
     Stage stage;
     const RayScene rays(stage.scene);
-    const Seen below = look(lighting_of(stage.scene, stage.map, rays), {0.2, -1, 0.3}, {0, 1, 0}, Show::normals);
+    const Seen below = look(lighting_of(stage.scene, stage.pages, rays), {0.2, -1, 0.3}, {0, 1, 0}, Show::normals);
     EXPECT_GT(below.distance, 2.5);  // through the floor, to the monitor's front
     stage.scene.materials[0].double_sided = true;
-    const Lighting lighting = lighting_of(stage.scene, stage.map, rays);
+    const Lighting lighting = lighting_of(stage.scene, stage.pages, rays);
     EXPECT_NEAR(look(lighting, {0.2, -1, 0.3}, {0, 1, 0}, Show::normals).distance, 1, 1e-5);
 }
 
@@ -88,8 +88,8 @@ TEST(Preview, PictureIsUprightAndNotMirrored) {
     Scene scene;
     test::add_quad(scene, "Upper right", {0.2, 0.2, -2}, {0.4, 0.2, -2}, {0.4, 0.4, -2}, {0.2, 0.4, -2});
     const RayScene rays(scene);
-    const VisibilityMap map;
-    const Picture picture = render(lighting_of(scene, map, rays), look_at(Vec3(0), {0, 0, -1}, 1.0),
+    const std::vector<VisibilityMap> pages;
+    const Picture picture = render(lighting_of(scene, pages, rays), look_at(Vec3(0), {0, 0, -1}, 1.0),
                                    {.width = 40, .height = 40, .samples_per_side = 2, .show = Show::normals}, {});
     double upper_right = 0, elsewhere = 0;
     for (int y = 0; y < 40; ++y)
@@ -101,8 +101,9 @@ TEST(Preview, PictureIsUprightAndNotMirrored) {
 TEST(Preview, PassesAddUpToThePictureForAnyNumberOfThreads) {
     const Scene scene = test::kanikama_room();
     const RayScene rays(scene);
-    const VisibilityMap map;
-    const Lighting lighting = lighting_of(scene, map, rays, {.visibility = VisibilitySource::stochastic, .samples = 2});
+    const std::vector<VisibilityMap> pages;
+    const Lighting lighting =
+        lighting_of(scene, pages, rays, {.visibility = VisibilitySource::stochastic, .samples = 2});
     const View view = look_at({0, 1, 2.5}, {0, 0, -1}, 1.0);
     const RenderSettings settings{.width = 70, .height = 40, .samples_per_side = 2};
     int calls = 0;
@@ -130,11 +131,11 @@ TEST(Preview, ShadingAgreesWithBruteForce) {
     for (Surface& surface : scene.surfaces)
         if (surface.monitor < 0) surface.material = 0;
     const RayScene rays(scene);
-    const VisibilityMap map;
+    const std::vector<VisibilityMap> pages;
     const View view = look_at({0, 1, 2.5}, {0, 0, -1}, 1.0);
     const RenderSettings settings{.width = 48, .height = 27, .samples_per_side = 1};
     const auto picture_of = [&](ShadingModel model, VisibilitySource source) {
-        return render(lighting_of(scene, map, rays, {.visibility = source, .model = model, .samples = 256}), view,
+        return render(lighting_of(scene, pages, rays, {.visibility = source, .model = model, .samples = 256}), view,
                       settings, {});
     };
     for (const VisibilitySource source : {VisibilitySource::none, VisibilitySource::stochastic}) {
@@ -158,14 +159,14 @@ TEST(Shade, PointsOfAllMaterialsInOneBatchGetWhatTheyGetAlone) {
     scene.materials[1].roughness = 0.2;
     scene.materials[3].unlit = true;
     const RayScene rays(scene);
-    const VisibilityMap map;
+    const std::vector<VisibilityMap> pages;
     std::vector<SurfacePoint> places;
     for (uint32_t s = 0; s < scene.surfaces.size(); ++s) {
         scene.surfaces[s].material = static_cast<int>(s % 4);
         for (uint32_t t = 0; t < scene.surfaces[s].triangles.size(); ++t)
             places.push_back(surface_point(scene, {s, t}, {0.2, 0.3, 0.5}));
     }
-    const Lighting lighting = lighting_of(scene, map, rays);
+    const Lighting lighting = lighting_of(scene, pages, rays);
     std::vector<ShadingPoint> points;
     for (const SurfacePoint& place : places)
         points.push_back(shading_point(scene, place, normalize_or(Vec3(0.3, 0.4, 1) - place.position, {0, 1, 0})));
@@ -195,27 +196,27 @@ TEST(ShadingPlan, ComputesOnlyWhatTheSceneCallsFor) {
         return counts[0];
     };
     // A matte floor: no lobe, but a read of the map, since a part of it is shadowed.
-    MonitorCounts c = count(lighting_of(stage.scene, stage.map, rays), {0.5, 1, 0});
+    MonitorCounts c = count(lighting_of(stage.scene, stage.pages, rays), {0.5, 1, 0});
     EXPECT_EQ(c.specular, 0u);
     EXPECT_EQ(c.diffuse, 1u);
     EXPECT_EQ(c.map_reads, 1u);
     stage.scene.materials[0].specular = 1;
-    EXPECT_EQ(count(lighting_of(stage.scene, stage.map, rays), {0.5, 1, 0}).specular, 1u);
+    EXPECT_EQ(count(lighting_of(stage.scene, stage.pages, rays), {0.5, 1, 0}).specular, 1u);
     stage.scene.materials[0].metallic = 1;
-    EXPECT_EQ(count(lighting_of(stage.scene, stage.map, rays), {0.5, 1, 0}).diffuse, 0u);
+    EXPECT_EQ(count(lighting_of(stage.scene, stage.pages, rays), {0.5, 1, 0}).diffuse, 0u);
     // Dark in the map: nothing.
-    for (Vec3f& v : stage.map.visibility.pixels) v = Vec3f(1, v.y < 1 ? 0 : 1, 1);
-    c = count(lighting_of(stage.scene, stage.map, rays), {0.5, 1, 0});
+    for (Vec3f& v : stage.pages[0].visibility.pixels) v = Vec3f(1, v.y < 1 ? 0 : 1, 1);
+    c = count(lighting_of(stage.scene, stage.pages, rays), {0.5, 1, 0});
     EXPECT_EQ(c.dark, 1u);
     EXPECT_EQ(c.specular + c.diffuse, 0u);
     // Never blocked: no reads. Off: nothing at all.
-    stage.map.visibility = Image<Vec3f>(4, 4, Vec3f(0, 1, 0));
-    EXPECT_EQ(count(lighting_of(stage.scene, stage.map, rays), {0.5, 1, 0}).map_reads, 0u);
-    const Lighting off(stage.scene, stage.map, rays, {LitMonitor{Vec3(0), std::nullopt}}, {});
+    stage.pages[0].visibility = Image<Vec3f>(4, 4, Vec3f(0, 1, 0));
+    EXPECT_EQ(count(lighting_of(stage.scene, stage.pages, rays), {0.5, 1, 0}).map_reads, 0u);
+    const Lighting off(stage.scene, stage.pages, rays, {LitMonitor{Vec3(0), std::nullopt}}, {});
     EXPECT_EQ(count(off, {0.5, 1, 0}).unseen, 1u);
     // Below the monitor's horizon.
     stage.scene.monitors[0].panels[0].corners = {{-1, -2, 1}, {-1, -2, 0}, {1, -2, 0}, {1, -2, 1}};
-    EXPECT_EQ(count(lighting_of(stage.scene, stage.map, rays), {0.5, 1, 0}).unseen, 1u);
+    EXPECT_EQ(count(lighting_of(stage.scene, stage.pages, rays), {0.5, 1, 0}).unseen, 1u);
 }
 
 TEST(Preview, FilmicCurveIsMonotoneAndBounded) {
@@ -233,8 +234,8 @@ TEST(Preview, FilmicCurveIsMonotoneAndBounded) {
 TEST(Preview, AutomaticFramingSeesSomethingLit) {
     const Scene scene = test::kanikama_room();
     const RayScene rays(scene);
-    const VisibilityMap map;
-    const Lighting lighting = lighting_of(scene, map, rays);
+    const std::vector<VisibilityMap> pages;
+    const Lighting lighting = lighting_of(scene, pages, rays);
     const View view = frame_automatically(lighting, 16.0 / 9);
     const Picture picture = render(lighting, view, {.width = 64, .height = 36, .samples_per_side = 1}, {});
     int lit = 0;
