@@ -54,6 +54,7 @@ Bake bake(const Scene& scene, const BakeSettings& settings, const Progress& prog
     stopwatch.finish("texels");
     const RayScene rays(scene);
     result.warnings = monitor_warnings(scene, rays);
+    result.warnings.insert(result.warnings.end(), result.atlas.warnings.begin(), result.atlas.warnings.end());
     stopwatch.finish("rays");
 
     result.map.visibility = Image<Vec3f>(result.atlas.width, result.atlas.height, Vec3f(1));  // unused channels stay 1

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "baker/cli/commands.h"
+#include "baker/cli/existing_uv.h"
 #include "baker/cli/options.h"
 #include "baker/cli/progress.h"
 #include "baker/write/output.h"
@@ -34,6 +35,7 @@ void print_summary(const Scene& scene, const Bake& bake) {
                    monitor.name, count(state, TexelState::covered), count(state, TexelState::unlit),
                    count(state, TexelState::filled), count(state, TexelState::empty));
     }
+    print_uv_choice(bake.atlas);
     for (const DensityCap& cap : bake.atlas.caps)
         fmt::print(stderr, "note: {} has {:.3g} of the density: {}\n", scene.surfaces[cap.surface].name, cap.factor,
                    cap.reason);
@@ -48,7 +50,9 @@ int bake_scene(const Given& given, const std::filesystem::path& out) {
     }
     set_thread_count(config.threads);
     const Scene scene = load_scene(given, config);
-    const Bake result = bake(scene, config.bake, make_progress(given.progress, given.quiet));
+    Bake result;
+    with_picture_of_faults(scene, config.bake.unwrap, out,
+                           [&] { result = bake(scene, config.bake, make_progress(given.progress, given.quiet)); });
     const OutputPaths paths = write_bake(out, scene, result, settings_json(config));
     if (!given.quiet) print_summary(scene, result);
     if (given.json) {

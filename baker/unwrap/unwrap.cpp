@@ -133,7 +133,8 @@ Atlas to_atlas(const Scene& scene, const Work& work, const Layout& layout, const
 
 Atlas unwrap(const Scene& scene, const UnwrapSettings& settings, const Progress& progress) {
     check_settings(scene, settings);
-    if (settings.uv == UvSource::existing) return take_existing(scene, settings);
+    std::string why_new_charts;
+    if (auto existing = take_existing(scene, settings, why_new_charts)) return *existing;
 
     Work work;
     std::vector<DensityCap> caps;
@@ -155,6 +156,7 @@ Atlas unwrap(const Scene& scene, const UnwrapSettings& settings, const Progress&
         Atlas atlas = to_atlas(scene, work, layout, rounded);
         atlas.gutter = settings.gutter;
         atlas.caps = std::move(caps);
+        atlas.uv_reason = why_new_charts;
         return atlas;
     }
 }

@@ -9,6 +9,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "baker/write/manifest_sections.h"
+
 namespace surimi {
 namespace {
 
@@ -30,6 +32,7 @@ Json map_section(const Atlas& atlas, const std::vector<ManifestFile>& files) {
                  {"height", atlas.height},
                  {"encoding", {{"exr", "linear"}, {"png", "srgb"}}},
                  {"uvSet", 1},
+                 {"uv", uv_section(atlas)},
                  {"origin", "top-left"},
                  {"texelsPerMetre", atlas.texels_per_metre},
                  {"gutter", atlas.gutter}};
@@ -122,6 +125,14 @@ Json error_section(const Scene& scene, const Bake& bake) {
     return section;
 }
 
+}  // namespace
+
+Json uv_section(const Atlas& atlas) {
+    Json section{{"source", atlas.is_existing ? "existing" : "unwrap"}};
+    if (!atlas.uv_reason.empty()) section["reason"] = atlas.uv_reason;
+    return section;
+}
+
 Json caps_section(const Scene& scene, const Atlas& atlas) {
     Json section = Json::array();
     for (const DensityCap& cap : atlas.caps)
@@ -136,6 +147,8 @@ Json notes_section(const Scene& scene) {
         section.push_back({{"what", note.what}, {"count", note.count}, {"where", note.where}});
     return section;
 }
+
+namespace {
 
 Json outputs_section(const std::vector<ManifestFile>& files) {
     Json section = Json::array();
