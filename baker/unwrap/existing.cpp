@@ -14,7 +14,8 @@ namespace surimi {
 namespace {
 
 constexpr size_t named_triangles = 5;  ///< in a message
-constexpr size_t kept_pairs = 4096;    ///< enough for a picture, few enough for UVs that all lie on one heap
+constexpr size_t kept_pairs = 4096;    ///< of triangles that get in each other's way: enough to name some
+constexpr size_t pairs_each = 16;      ///< overlaps looked at for each triangle on average: heaps have no end of them
 constexpr int largest_size = 16384;    ///< texels on a side
 constexpr int widest_gap = 64;         ///< wider ones are not told apart
 
@@ -200,9 +201,23 @@ double tolerated_overlap(const FlatTriangle& a, const FlatTriangle& b) {
     return std::max(1e-9, std::min(1e-3, 1e-2 * smaller));
 }
 
+/// Pairs by surface and triangle, sorted, each once.
+std::vector<std::array<TriangleRef, 2>> refs_of(std::vector<std::array<uint32_t, 2>> numbers,
+                                                const PlacedTriangles& placed) {
+    std::sort(numbers.begin(), numbers.end());
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+    std::vector<std::array<TriangleRef, 2>> pairs;
+    for (const auto& [i, j] : numbers) pairs.push_back({placed.source[i], placed.source[j]});
+    return pairs;
+}
+
 void find_overlaps(const Scene& scene, const PlacedTriangles& placed, ExistingUv& found) {
-    // Beyond one and a half maps of triangles some must overlap: no need to look at the rest, which may be a heap.
-    const double enough = 1.5 * found.atlas.width * found.atlas.height;
+    Vec2 low(INFINITY), high(-INFINITY);
+    for (const FlatTriangle& t : placed.texels)
+        for (const Vec2& p : t) low = glm::min(low, p), high = glm::max(high, p);
+    // Where triangles fill their common box one and a half times, some overlap: no need to look at the rest, which may
+    // be a heap.
+    const double enough = 1.5 * (high.x - low.x) * (high.y - low.y);
     std::vector<FlatTriangle> some;
     double area = 0;
     for (size_t i = 0; i < placed.texels.size() && area <= enough; ++i) {
@@ -210,19 +225,18 @@ void find_overlaps(const Scene& scene, const PlacedTriangles& placed, ExistingUv
         area += 0.5 * std::abs(doubled_area(some.back()));
     }
     std::vector<std::array<uint32_t, 2>> numbers;
+    std::vector<bool> is_bad(some.size(), false);
+    size_t seen = 0;
     visit_close_pairs(some, [&](uint32_t i, uint32_t j) {
-        if (overlap_area(some[i], some[j]) > tolerated_overlap(some[i], some[j])) numbers.push_back({i, j});
-        return numbers.size() < kept_pairs;
+        if (overlap_area(some[i], some[j]) <= tolerated_overlap(some[i], some[j])) return true;
+        if (numbers.size() < kept_pairs) numbers.push_back({i, j});
+        is_bad[i] = is_bad[j] = true;
+        return ++seen < kept_pairs + pairs_each * some.size();
     });
     if (numbers.empty()) return;
-    std::sort(numbers.begin(), numbers.end());
-    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-    std::vector<std::array<TriangleRef, 2>> pairs;
-    for (const auto& [i, j] : numbers) {
-        pairs.push_back({placed.source[i], placed.source[j]});
-        found.bad.insert(found.bad.end(), pairs.back().begin(), pairs.back().end());
-    }
-    add_fault(found, "overlaps (every placement needs its own texels): " + list_pairs(scene, pairs));
+    for (size_t i = 0; i < some.size(); ++i)
+        if (is_bad[i]) found.bad.push_back(placed.source[i]);
+    add_fault(found, "overlaps (every placement needs its own texels): " + list_pairs(scene, refs_of(numbers, placed)));
 }
 
 /// The next doubled size at which no two charts share a texel.
@@ -249,15 +263,11 @@ void find_shared(const Scene& scene, const PlacedTriangles& placed, const std::v
         return true;
     });
     if (numbers.empty()) return;
-    std::sort(numbers.begin(), numbers.end());
-    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
     std::sort(found.shared.begin(), found.shared.end());
     found.shared.erase(std::unique(found.shared.begin(), found.shared.end()), found.shared.end());
-    std::vector<std::array<TriangleRef, 2>> pairs;
-    for (const auto& [i, j] : numbers) pairs.push_back({placed.source[i], placed.source[j]});
     add_fault(found, fmt::format("has charts so close that bilinear reads share {} texels of a map of {} x {}, {}{}",
-                                 found.shared.size(), atlas.width, atlas.height, list_pairs(scene, pairs),
-                                 fitting_size(atlas, joined)));
+                                 found.shared.size(), atlas.width, atlas.height,
+                                 list_pairs(scene, refs_of(numbers, placed)), fitting_size(atlas, joined)));
 }
 
 /// Warns where charts are nearer than the gutter asked for.
@@ -301,7 +311,8 @@ ExistingUv judge_existing(const Scene& scene, const UnwrapSettings& settings) {
 std::optional<Atlas> take_existing(const Scene& scene, const UnwrapSettings& settings, std::string& why_not) {
     if (settings.uv == UvSource::unwrap) return std::nullopt;
     ExistingUv found = judge_existing(scene, settings);
-    if (settings.uv == UvSource::automatic) found.atlas.uv_reason = "the existing UVs are fit for a lightmap";
+    if (settings.uv == UvSource::automatic)
+        found.atlas.uv_reason = "every surface has them, within [0, 1], without overlaps and shared texels";
     if (found.fault.empty()) return std::move(found.atlas);
     if (settings.uv == UvSource::existing)
         throw Error(found.kind, found.fault + "; fix TEXCOORD_1, or let Surimi make one with --uv unwrap or auto");

@@ -19,7 +19,7 @@ struct ExistingUv {
     Atlas atlas;        ///< empty where a surface has no TEXCOORD_1. Triangles that are not finite lie in the origin
     std::string fault;  ///< in words, with surfaces and triangles; empty: fit for a lightmap
     ErrorKind kind = ErrorKind::scene;  ///< of the fault
-    std::vector<TriangleRef> bad;       ///< triangles at fault, sorted, some thousand at most
+    std::vector<TriangleRef> bad;       ///< triangles at fault, sorted
     std::vector<uint32_t> shared;       ///< texels (y * width + x) that bilinear reads on two charts touch, sorted
 };
 

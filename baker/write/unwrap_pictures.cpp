@@ -171,14 +171,19 @@ Picture8 draw_faults(const ExistingUv& found) {
     };
     const bool has_margin = std::any_of(on_map.texels.begin(), on_map.texels.end(), is_outside);
     const glm::ivec2 margin = has_margin ? size / 4 : glm::ivec2(0);
-    PlacedTriangles placed = on_map, bad;
+    const double enough = 4.0 * size.x * size.y;  // of a heap, more would bring nothing new
+    PlacedTriangles placed, bad;
+    double area = 0;
     size_t next = 0;
-    for (size_t i = 0; i < placed.texels.size(); ++i) {
-        for (Vec2& p : placed.texels[i]) p += Vec2(margin);
+    for (size_t i = 0; i < on_map.texels.size() && area < enough; ++i) {
+        FlatTriangle pixels = on_map.texels[i];
+        for (Vec2& p : pixels) p += Vec2(margin);
+        area += 0.5 * std::abs(doubled_area(pixels));
+        placed.texels.push_back(pixels);
+        placed.chart.push_back(on_map.chart[i]);
         const auto key = [](const TriangleRef& ref) { return std::pair(ref.surface, ref.triangle); };
-        while (next < found.bad.size() && key(found.bad[next]) < key(placed.source[i])) ++next;
-        if (next < found.bad.size() && key(found.bad[next]) == key(placed.source[i]))
-            bad.texels.push_back(placed.texels[i]);
+        while (next < found.bad.size() && key(found.bad[next]) < key(on_map.source[i])) ++next;
+        if (next < found.bad.size() && key(found.bad[next]) == key(on_map.source[i])) bad.texels.push_back(pixels);
     }
     constexpr double dimmed = 0.45;
     Picture8 picture = paint_charts(placed, size + 2 * margin, found.atlas.charts.size(), dimmed);
