@@ -12,6 +12,46 @@ constexpr uint32_t no_triangle = UINT32_MAX;
 constexpr double footprint_reach = 1 - 1e-3;     // a read a thousandth of a texel further has no weight worth a name
 constexpr size_t band_texels = size_t{1} << 24;  // 64 MiB of owners at a time
 
+/// Calls `visit(x, y)` for a texel and its up to eight neighbours.
+template <class Visit>
+void visit_around(const glm::ivec2& middle, const glm::ivec2& size, const Visit& visit) {
+    const glm::ivec2 low = glm::max(middle - 1, glm::ivec2(0));
+    const glm::ivec2 high = glm::min(middle + 1, size - 1);
+    for (int y = low.y; y <= high.y; ++y)
+        for (int x = low.x; x <= high.x; ++x) visit(x, y);
+}
+
+/// Texels of some rows and the triangle that came to each first.
+class FirstComers {
+  public:
+    FirstComers(const PlacedTriangles& placed, const TexelRows& rows, std::vector<uint32_t>& storage)
+        : placed_(placed), rows_(rows), owners_(storage) {
+        owners_.assign(static_cast<size_t>(rows.width) * static_cast<size_t>(rows.end_row - rows.first_row),
+                       no_triangle);
+    }
+
+    /// Puts in the footprint of a triangle; `visit` hears of texels where another chart was first. False when it
+    /// answers false.
+    template <class Visit>
+    bool add(uint32_t triangle, const Visit& visit) {
+        bool goes_on = true;
+        visit_runs(placed_.texels[triangle], footprint_reach, rows_, [&](int row, int first, int last) {
+            uint32_t* owner =
+                owners_.data() + static_cast<size_t>(row - rows_.first_row) * static_cast<size_t>(rows_.width);
+            for (int x = first; x <= last && goes_on; ++x) {
+                if (owner[x] == no_triangle) owner[x] = triangle;
+                if (placed_.chart[owner[x]] != placed_.chart[triangle]) goes_on = visit({x, row, owner[x], triangle});
+            }
+        });
+        return goes_on;
+    }
+
+  private:
+    const PlacedTriangles& placed_;
+    TexelRows rows_;
+    std::vector<uint32_t>& owners_;
+};
+
 }  // namespace
 
 PlacedTriangles place_triangles(const Atlas& atlas, int page, const glm::ivec2& size) {
@@ -45,19 +85,11 @@ Image<uint32_t> touched_charts(const PlacedTriangles& placed, const glm::ivec2& 
 void visit_shared_texels(const PlacedTriangles& placed, const glm::ivec2& size,
                          const std::function<bool(const SharedTexel&)>& visit) {
     const int band = static_cast<int>(std::max<size_t>(1, band_texels / static_cast<size_t>(size.x)));
-    Image<uint32_t> owner(size.x, std::min(band, size.y));
-    bool goes_on = true;
-    for (int top = 0; top < size.y && goes_on; top += band) {
-        std::fill(owner.pixels.begin(), owner.pixels.end(), no_triangle);
-        const TexelRows rows{size.x, top, std::min(top + band, size.y)};
-        for (uint32_t i = 0; i < placed.texels.size() && goes_on; ++i)
-            visit_runs(placed.texels[i], footprint_reach, rows, [&](int row, int first, int last) {
-                uint32_t* texel = &owner.at(first, row - top);
-                for (int x = first; x <= last && goes_on; ++x, ++texel) {
-                    if (*texel == no_triangle) *texel = i;
-                    if (placed.chart[*texel] != placed.chart[i]) goes_on = visit({x, row, *texel, i});
-                }
-            });
+    std::vector<uint32_t> storage;
+    for (int top = 0; top < size.y; top += band) {
+        FirstComers texels(placed, {size.x, top, std::min(top + band, size.y)}, storage);
+        for (uint32_t i = 0; i < placed.texels.size(); ++i)
+            if (!texels.add(i, visit)) return;
     }
 }
 
@@ -69,16 +101,13 @@ NearestCharts nearest_charts(const Image<uint32_t>& touched, int reach) {
             if (touched.at(x, y) != no_chart) ring.push_back({x, y});
     for (int distance = 1; distance <= reach && !ring.empty(); ++distance, ring.swap(next)) {
         next.clear();
-        for (const glm::ivec2& from : ring) {
-            const uint32_t chart = nearest.chart.at(from.x, from.y);
-            for (int y = std::max(0, from.y - 1); y <= std::min(touched.height - 1, from.y + 1); ++y)
-                for (int x = std::max(0, from.x - 1); x <= std::min(touched.width - 1, from.x + 1); ++x) {
-                    if (nearest.chart.at(x, y) != no_chart) continue;
-                    nearest.chart.at(x, y) = chart;
-                    nearest.distance.at(x, y) = static_cast<uint16_t>(distance);
-                    next.push_back({x, y});
-                }
-        }
+        for (const glm::ivec2& from : ring)
+            visit_around(from, {touched.width, touched.height}, [&](int x, int y) {
+                if (nearest.chart.at(x, y) != no_chart) return;
+                nearest.chart.at(x, y) = nearest.chart.at(from.x, from.y);
+                nearest.distance.at(x, y) = static_cast<uint16_t>(distance);
+                next.push_back({x, y});
+            });
     }
     return nearest;
 }

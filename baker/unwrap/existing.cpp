@@ -310,6 +310,10 @@ ExistingUv judge_existing(const Scene& scene, const UnwrapSettings& settings) {
 
 std::optional<Atlas> take_existing(const Scene& scene, const UnwrapSettings& settings, std::string& why_not) {
     if (settings.uv == UvSource::unwrap) return std::nullopt;
+    if (settings.uv == UvSource::automatic && settings.atlases > 1) {
+        why_not = fmt::format("existing UVs are those of one map, and {} are asked for", settings.atlases);
+        return std::nullopt;
+    }
     ExistingUv found = judge_existing(scene, settings);
     if (settings.uv == UvSource::automatic)
         found.atlas.uv_reason = "every surface has them, within [0, 1], without overlaps and shared texels";

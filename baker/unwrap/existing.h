@@ -32,8 +32,8 @@ struct ExistingUv {
 ExistingUv judge_existing(const Scene& scene, const UnwrapSettings& settings);
 
 /// The existing UVs where `settings.uv` asks for them. Nothing for UvSource::unwrap, and nothing for automatic when
-/// they are unfit: then `why_not` says why. Throws Error(scene), or Error(usage) where the density makes the map too
-/// large, when UvSource::existing asks for UVs that are unfit.
+/// they are unfit or several atlases are asked for: then `why_not` says why. Throws Error(scene), or Error(usage) where
+/// the density makes the map too large, when UvSource::existing asks for UVs that are unfit.
 std::optional<Atlas> take_existing(const Scene& scene, const UnwrapSettings& settings, std::string& why_not);
 
 }  // namespace surimi

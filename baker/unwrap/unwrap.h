@@ -35,8 +35,8 @@ struct UnwrapSettings {
 /// Cuts every surface into charts without flips or overlaps, at one density, and packs them into exactly the size
 /// asked for. Deterministic. Adds nothing to the scene and drops nothing with area.
 /// Throws Error(nothing_to_bake) when the scene has no triangle, Error(usage) when the charts cannot fit even at the
-/// lowest density (it names the smallest size that can), Error(scene) when existing UVs are unfit (missing, out of
-/// [0, 1], overlapping, not finite): the message names surface and triangles.
+/// lowest density (it names the smallest size that can), Error(scene) when existing UVs are asked for
+/// and unfit (see judge_existing): the message names surface and triangles.
 Atlas unwrap(const Scene& scene, const UnwrapSettings& settings, const Progress& progress);
 
 }  // namespace surimi

@@ -150,6 +150,14 @@ TEST(ExistingUv, AutomaticMakesChartsWhenUvsAreUnfitAndSaysWhy) {
     EXPECT_TRUE(says(atlas.uv_reason, "is missing on right")) << atlas.uv_reason;
 }
 
+TEST(ExistingUv, AutomaticMakesChartsForSeveralAtlases) {
+    UnwrapSettings settings = settings_for(uv_map, UvSource::automatic);
+    settings.atlases = 2;
+    const Atlas atlas = unwrap(two_quads(2), settings, {});
+    EXPECT_FALSE(atlas.is_existing);
+    EXPECT_TRUE(says(atlas.uv_reason, "one map")) << atlas.uv_reason;
+}
+
 TEST(ExistingUv, OurOwnChartsAreFit) {
     Scene scene;
     scene.surfaces.push_back(uv_quad("quad", unit_square(0), {8, 8, 24, 24}));
