@@ -239,13 +239,19 @@ void find_overlaps(const Scene& scene, const PlacedTriangles& placed, ExistingUv
     add_fault(found, "overlaps (every placement needs its own texels): " + list_pairs(scene, refs_of(numbers, placed)));
 }
 
+/// The atlas' triangles on a map of this size, with their charts as all surfaces together have them.
+PlacedTriangles place_joined(const Atlas& atlas, const std::vector<uint32_t>& joined, const glm::ivec2& size) {
+    PlacedTriangles placed = place_triangles(atlas, 0, size);
+    for (uint32_t& chart : placed.chart) chart = joined[chart];
+    return placed;
+}
+
 /// The next doubled size at which no two charts share a texel.
 std::string fitting_size(const Atlas& atlas, const std::vector<uint32_t>& joined) {
     for (glm::ivec2 size(2 * atlas.width, 2 * atlas.height); std::max(size.x, size.y) <= largest_size; size *= 2) {
-        PlacedTriangles placed = place_triangles(atlas, 0, size);
-        for (uint32_t& chart : placed.chart) chart = joined[chart];
         bool is_fine = true;
-        visit_shared_texels(placed, size, [&](const SharedTexel&) { return is_fine = false; });
+        visit_shared_texels(place_joined(atlas, joined, size), size,
+                            [&](const SharedTexel&) { return is_fine = false; });
         if (is_fine) return fmt::format("; {} x {} texels are enough", size.x, size.y);
     }
     return fmt::format("; no larger map up to {} helps, the charts are too close", largest_size);
@@ -270,18 +276,29 @@ void find_shared(const Scene& scene, const PlacedTriangles& placed, const std::v
                                  list_pairs(scene, refs_of(numbers, placed)), fitting_size(atlas, joined)));
 }
 
-/// Warns where charts are nearer than the gutter asked for.
-void check_gutter(const PlacedTriangles& placed, int gutter, Atlas& atlas) {
+/// Untouched texels between the two charts that are nearest to each other, widest_gap if there are more.
+int smallest_gap(const PlacedTriangles& placed, const glm::ivec2& size) {
     int gap = widest_gap;
-    const auto touched = touched_charts(placed, {atlas.width, atlas.height});
-    visit_borders(nearest_charts(touched, widest_gap / 2),
+    visit_borders(nearest_charts(touched_charts(placed, size), widest_gap / 2),
                   [&](uint32_t, uint32_t, int distance) { gap = std::min(gap, distance); });
-    atlas.gutter = std::min(gap, gutter);
-    if (gap < gutter)
+    return gap;
+}
+
+/// Warns where charts are nearer than the gutter asked for, or run into each other on the last mip level asked for.
+void check_gutter(const UnwrapSettings& settings, const std::vector<uint32_t>& joined, Atlas& atlas) {
+    const glm::ivec2 size(atlas.width, atlas.height);
+    const int gap = smallest_gap(place_joined(atlas, joined, size), size);
+    atlas.gutter = std::min(gap, settings.gutter);
+    if (gap < settings.gutter)
         atlas.warnings.push_back(fmt::format(
             "the existing UVs leave {} texels between two charts at {} x {}, less than the gutter of {} asked for: "
             "mip levels and compressed blocks will mix them",
-            gap, atlas.width, atlas.height, gutter));
+            gap, size.x, size.y, settings.gutter));
+    const glm::ivec2 last = glm::max(size / (1 << settings.mips), glm::ivec2(1));
+    if (settings.mips > 0 && smallest_gap(place_joined(atlas, joined, last), last) < 1)
+        atlas.warnings.push_back(
+            fmt::format("the existing UVs leave no texel between two charts on mip level {}, {} x {}: it will mix them",
+                        settings.mips, last.x, last.y));
 }
 
 }  // namespace
@@ -298,11 +315,10 @@ ExistingUv judge_existing(const Scene& scene, const UnwrapSettings& settings) {
     if (!found.fault.empty() || !set_size(scene, settings, found)) return found;
     find_collapsed(scene, found);
     if (found.fault.empty()) {
-        PlacedTriangles placed = place_triangles(found.atlas, 0, {found.atlas.width, found.atlas.height});
-        for (uint32_t& chart : placed.chart) chart = joined[chart];
+        const auto placed = place_joined(found.atlas, joined, {found.atlas.width, found.atlas.height});
         find_overlaps(scene, placed, found);
         if (found.fault.empty()) find_shared(scene, placed, joined, found);
-        if (found.fault.empty()) check_gutter(placed, settings.gutter, found.atlas);
+        if (found.fault.empty()) check_gutter(settings, joined, found.atlas);
     }
     std::sort(found.bad.begin(), found.bad.end(), is_before);
     return found;

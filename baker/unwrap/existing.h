@@ -27,7 +27,8 @@ struct ExistingUv {
 /// that deserve a texel and have no area on the map; triangles that overlap, also those of two surfaces; charts that
 /// share a texel of their bilinear footprints at the map's size (as Unity judges lightmap UVs), with the next doubled
 /// size at which they do not. Charts are triangles joined by edges whose ends agree in place and uv, also across
-/// surfaces. A gap narrower than the gutter asked for is a warning in `atlas`. With a density, the map becomes the
+/// surfaces. A gap narrower than the gutter asked for, or none left on the last mip level asked
+/// for, is a warning in `atlas`. With a density, the map becomes the
 /// smallest square multiple of 4 at which the scene has it on average. Near-linear in triangles and texels.
 ExistingUv judge_existing(const Scene& scene, const UnwrapSettings& settings);
 

@@ -74,6 +74,17 @@ TEST(ExistingUv, AGutterNarrowerThanAskedIsAWarning) {
     EXPECT_TRUE(judge_existing(two_quads(4), settings).atlas.warnings.empty());
 }
 
+TEST(ExistingUv, AMipLevelThatMixesChartsIsAWarning) {
+    UnwrapSettings settings = settings_for(uv_map);
+    settings.mips = 1;
+    EXPECT_TRUE(judge_existing(two_quads(2), settings).atlas.warnings.empty());  // from 24 to 26: one texel of level 1
+    settings.mips = 2;
+    const auto warnings = judge_existing(two_quads(2), settings).atlas.warnings;
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_TRUE(says(warnings[0], "mip level 2, 16 x 16")) << warnings[0];
+    EXPECT_TRUE(judge_existing(two_quads(4), settings).atlas.warnings.empty());
+}
+
 TEST(ExistingUv, AChartMayGoOnAcrossSurfaces) {
     Scene scene = two_quads(0);
     for (Vec3& p : scene.surfaces[1].positions) p.x -= 4;  // now beside the first, in space as on the map
