@@ -61,6 +61,7 @@ Bake bake(const Scene& scene, const BakeSettings& settings, const Progress& prog
     stopwatch.finish("texels");
     const RayScene rays(scene);
     result.warnings = monitor_warnings(scene, rays);
+    result.warnings.insert(result.warnings.end(), result.atlas.warnings.begin(), result.atlas.warnings.end());
     stopwatch.finish("rays");
 
     result.pages.resize(texels.size());

@@ -9,6 +9,7 @@
 
 #include "baker/cli/commands.h"
 #include "baker/cli/density_summary.h"
+#include "baker/cli/existing_uv.h"
 #include "baker/cli/options.h"
 #include "baker/cli/progress.h"
 #include "baker/write/output.h"
@@ -40,6 +41,7 @@ void print_summary(const Scene& scene, const Bake& bake) {
                    monitor.name, count(bake, monitor, TexelState::covered), count(bake, monitor, TexelState::unlit),
                    count(bake, monitor, TexelState::filled), count(bake, monitor, TexelState::empty));
     }
+    print_uv_choice(bake.atlas);
     print_density_weights(bake.atlas);
     for (const std::string& warning : bake.warnings) fmt::print(stderr, "warning: {}\n", warning);
 }
@@ -52,7 +54,9 @@ int bake_scene(const Given& given, const std::filesystem::path& out) {
     }
     set_thread_count(config.threads);
     const Scene scene = load_scene(given, config);
-    const Bake result = bake(scene, config.bake, make_progress(given.progress, given.quiet));
+    Bake result;
+    with_picture_of_faults(scene, config.bake.unwrap, out,
+                           [&] { result = bake(scene, config.bake, make_progress(given.progress, given.quiet)); });
     const OutputPaths paths = write_bake(out, scene, result, settings_json(config));
     if (!given.quiet) print_summary(scene, result);
     if (given.json) {

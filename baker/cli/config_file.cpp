@@ -121,11 +121,19 @@ std::vector<const toml::table*> tables_of(const toml::node& node, const std::str
     return tables;
 }
 
+void read_unwrap_key(const std::string& key, const toml::node& node, const Place& place, UnwrapSettings& settings) {
+    if (key == "size") read_size(node, place, settings);
+    if (key == "density") settings.texels_per_metre = value_of<double>(node, key, place);
+    if (key == "gutter") settings.gutter = value_of<int>(node, key, place);
+    if (key == "mips") settings.mips = value_of<int>(node, key, place);
+    if (key == "atlases") settings.atlases = value_of<int>(node, key, place);
+    if (key == "stretch") settings.stretch = value_of<double>(node, key, place);
+    if (key == "uv") settings.uv = parse_uv_source(value_of<std::string>(node, key, place), place.file);
+    if (key == "uv-quality") settings.quality = parse_uv_quality(value_of<std::string>(node, key, place), place.file);
+}
+
 void read_key(const std::string& key, const toml::node& node, const Place& place, Config& config) {
-    if (key == "size") read_size(node, place, config.bake.unwrap);
-    if (key == "density") config.bake.unwrap.texels_per_metre = value_of<double>(node, key, place);
-    if (key == "gutter") config.bake.unwrap.gutter = value_of<int>(node, key, place);
-    if (key == "uv") config.bake.unwrap.uv = parse_uv_source(value_of<std::string>(node, key, place), place.file);
+    read_unwrap_key(key, node, place, config.bake.unwrap);
     if (key == "samples") config.bake.gather.samples = value_of<int>(node, key, place);
     if (key == "seed") config.bake.gather.seed = static_cast<uint64_t>(value_of<int64_t>(node, key, place));
     if (key == "threads") config.threads = value_of<int>(node, key, place);
@@ -147,7 +155,9 @@ void read_config_file(const std::filesystem::path& path, Config& config) {
         throw Error(ErrorKind::usage, fmt::format("{}:{}: {}", path.string(), error.source().begin.line,
                                                   std::string(error.description())));
     }
-    check_keys(table, {"size", "density", "gutter", "uv", "samples", "seed", "threads", "monitor", "texel_scale"},
+    check_keys(table,
+               {"size", "density", "gutter", "mips", "atlases", "stretch", "uv", "uv-quality", "samples", "seed",
+                "threads", "monitor", "texel_scale"},
                place);
     if (table.contains("size") && table.contains("density"))
         place.fail(*table.get("density"), "\"size\" and \"density\" exclude each other: one follows from the other");
@@ -164,6 +174,9 @@ void check_ranges(const Config& config, const std::string& source) {
             "size must be from 16 to 16384 texels");
     require(std::isfinite(unwrap.texels_per_metre) && unwrap.texels_per_metre >= 0, "density must be positive");
     require(unwrap.gutter >= 1 && unwrap.gutter <= 64, "gutter must be from 1 to 64 texels");
+    require(unwrap.mips >= 0 && unwrap.mips <= 8, "mips must be from 0 to 8");
+    require(unwrap.atlases >= 1 && unwrap.atlases <= 16, "atlases must be from 1 to 16");
+    require(unwrap.stretch > 1 && unwrap.stretch <= 10, "stretch must be above 1 and at most 10");
     require(config.bake.gather.samples >= 1 && config.bake.gather.samples <= 1 << 20,
             "samples must be from 1 to 1048576");
     require(config.threads >= 0 && config.threads <= 4096, "threads must be from 0 (all cores) to 4096");
@@ -172,11 +185,36 @@ void check_ranges(const Config& config, const std::string& source) {
 UvSource parse_uv_source(const std::string& text, const std::string& source) {
     if (text == "unwrap") return UvSource::unwrap;
     if (text == "existing") return UvSource::existing;
-    throw Error(ErrorKind::usage, source + ": uv must be unwrap or existing, not \"" + text + "\"");
+    if (text == "auto") return UvSource::automatic;
+    throw Error(ErrorKind::usage, source + ": uv must be unwrap, existing or auto, not \"" + text + "\"");
 }
 
 std::string name_of(UvSource uv) {
-    return uv == UvSource::existing ? "existing" : "unwrap";
+    switch (uv) {
+        case UvSource::existing:
+            return "existing";
+        case UvSource::automatic:
+            return "auto";
+        default:
+            return "unwrap";
+    }
+}
+
+UvQuality parse_uv_quality(const std::string& text, const std::string& source) {
+    for (const UvQuality quality : {UvQuality::draft, UvQuality::medium, UvQuality::high})
+        if (text == name_of(quality)) return quality;
+    throw Error(ErrorKind::usage, source + ": uv-quality must be draft, medium or high, not \"" + text + "\"");
+}
+
+std::string name_of(UvQuality quality) {
+    switch (quality) {
+        case UvQuality::draft:
+            return "draft";
+        case UvQuality::high:
+            return "high";
+        default:
+            return "medium";
+    }
 }
 
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates) {

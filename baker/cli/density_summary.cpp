@@ -30,7 +30,8 @@ std::string counted(size_t count, const char* noun) {
 }  // namespace
 
 void print_density_weights(const Atlas& atlas) {
-    for (const DensityCause cause : {DensityCause::unreached, DensityCause::far, DensityCause::texel_scale, DensityCause::full_page}) {
+    for (const DensityCause cause :
+         {DensityCause::unreached, DensityCause::far, DensityCause::texel_scale, DensityCause::full_page}) {
         size_t surfaces = 0;
         DensityWeight sum{0, cause, 0, 0, 0, 0, INFINITY, 0};
         for (const DensityWeight& weight : atlas.weights) {

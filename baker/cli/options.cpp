@@ -33,7 +33,9 @@ void add_scene_options(CLI::App& app, Given& given) {
 }
 
 void add_unwrap_options(CLI::App& app, Given& given) {
-    app.add_option("--uv", given.uv, "unwrap: new charts; existing: TEXCOORD_1 as it is [unwrap]")
+    app.add_option("--uv", given.uv,
+                   "unwrap: new charts; existing: TEXCOORD_1, checked; auto: existing if fit for a lightmap, else new "
+                   "charts [unwrap]")
         ->type_name("SOURCE")
         ->envname("SURIMI_UV");
     auto* size = app.add_option("--size", given.size, "Size of the map in texels, 16 to 16384; density follows [1024]")
@@ -47,6 +49,21 @@ void add_unwrap_options(CLI::App& app, Given& given) {
     app.add_option("--gutter", given.gutter, "Empty texels between two charts, 1 to 64 [2]")
         ->type_name("N")
         ->envname("SURIMI_GUTTER");
+    app.add_option("--mips", given.mips, "Mip levels on which gutters still separate charts, 0 to 8 [0]")
+        ->type_name("N")
+        ->envname("SURIMI_MIPS");
+    app.add_option("--atlases", given.atlases, "Maps to spread the surfaces over, each of the size above, 1 to 16 [1]")
+        ->type_name("N")
+        ->envname("SURIMI_ATLASES");
+    app.add_option("--stretch", given.stretch,
+                   "How much charts may be stretched before they are cut, above 1 to 10: 99 % of a chart has at least "
+                   "1/S of its density in every direction [1.5]")
+        ->type_name("S")
+        ->envname("SURIMI_STRETCH");
+    app.add_option("--uv-quality", given.uv_quality,
+                   "draft, medium or high: how long fewer and longer charts are sought [medium]")
+        ->type_name("QUALITY")
+        ->envname("SURIMI_UV_QUALITY");
     app.add_flag("--print-config", given.print_config, "Print the settings in effect as TOML and stop");
 }
 
@@ -77,6 +94,10 @@ Config effective_config(const Given& given) {
         if (!(*given.density > 0)) throw Error(ErrorKind::usage, "--density must be greater than 0");
     }
     if (given.gutter) unwrap.gutter = *given.gutter;
+    if (given.mips) unwrap.mips = *given.mips;
+    if (given.atlases) unwrap.atlases = *given.atlases;
+    if (given.stretch) unwrap.stretch = *given.stretch;
+    if (given.uv_quality) unwrap.quality = parse_uv_quality(*given.uv_quality, "--uv-quality");
     if (given.samples) config.bake.gather.samples = *given.samples;
     if (given.seed) config.bake.gather.seed = *given.seed;
     if (given.threads) config.threads = *given.threads;
@@ -104,12 +125,16 @@ std::string triple(const Vec3& v) {
 std::string to_toml(const Config& config) {
     const UnwrapSettings& unwrap = config.bake.unwrap;
     std::string text;
-    text += fmt::format("uv = \"{}\"            # unwrap, existing\n", name_of(unwrap.uv));
+    text += fmt::format("uv = \"{}\"            # unwrap, existing, auto\n", name_of(unwrap.uv));
     if (unwrap.texels_per_metre > 0)
         text += fmt::format("density = {}          # texels per metre; the size follows\n", unwrap.texels_per_metre);
     else
         text += fmt::format("size = [{}, {}]   # texels; the density follows\n", unwrap.width, unwrap.height);
     text += fmt::format("gutter = {}               # texels between charts\n", unwrap.gutter);
+    text += fmt::format("mips = {}                 # levels on which gutters still separate charts\n", unwrap.mips);
+    text += fmt::format("atlases = {}              # maps\n", unwrap.atlases);
+    text += fmt::format("stretch = {}            # above 1\n", unwrap.stretch);
+    text += fmt::format("uv-quality = \"{}\"    # draft, medium, high\n", name_of(unwrap.quality));
     text += fmt::format("samples = {}            # rays for each texel and monitor\n", config.bake.gather.samples);
     text += fmt::format("seed = {}\n", config.bake.gather.seed);
     text += fmt::format("threads = {}              # 0: all cores\n", config.threads);
@@ -134,8 +159,9 @@ std::string to_toml(const Config& config) {
     return text;
 }
 
-std::string settings_json(const Config& config) {
-    const UnwrapSettings& unwrap = config.bake.unwrap;
+namespace {
+
+nlohmann::ordered_json unwrap_json(const UnwrapSettings& unwrap) {
     nlohmann::ordered_json json;
     json["uv"] = name_of(unwrap.uv);
     if (unwrap.texels_per_metre > 0)
@@ -143,12 +169,27 @@ std::string settings_json(const Config& config) {
     else
         json["size"] = {unwrap.width, unwrap.height};
     json["gutter"] = unwrap.gutter;
+    json["mips"] = unwrap.mips;
+    json["atlases"] = unwrap.atlases;
+    json["stretch"] = unwrap.stretch;
+    json["uvQuality"] = name_of(unwrap.quality);
     for (const TexelScale& wish : unwrap.texel_scales) {
         nlohmann::ordered_json& item = json["texel_scale"].emplace_back();
         if (!wish.node.empty()) item["node"] = wish.node;
         if (!wish.material.empty()) item["material"] = wish.material;
         item["scale"] = wish.scale;
     }
+    return json;
+}
+
+}  // namespace
+
+std::string unwrap_settings_json(const Config& config) {
+    return unwrap_json(config.bake.unwrap).dump();
+}
+
+std::string settings_json(const Config& config) {
+    nlohmann::ordered_json json = unwrap_json(config.bake.unwrap);
     json["samples"] = config.bake.gather.samples;
     json["seed"] = config.bake.gather.seed;
     return json.dump();

@@ -25,6 +25,10 @@ struct Given {
     std::vector<int> size;
     std::optional<double> density;
     std::optional<int> gutter;
+    std::optional<int> mips;
+    std::optional<int> atlases;
+    std::optional<double> stretch;
+    std::optional<std::string> uv_quality;
     std::optional<int> samples;
     std::optional<uint64_t> seed;
     std::optional<int> threads;
@@ -42,7 +46,7 @@ struct Config {
 };
 
 void add_scene_options(CLI::App& app, Given& given);   ///< SCENE, --monitor, --config, --threads, --quiet, --progress
-void add_unwrap_options(CLI::App& app, Given& given);  ///< --uv, --size, --density, --gutter
+void add_unwrap_options(CLI::App& app, Given& given);  ///< --uv, --size, --density, --gutter, --mips and so on
 void add_gather_options(CLI::App& app, Given& given);  ///< --samples, --seed
 
 /// Merges the configuration file (given.config, else NAME.surimi.toml beside the scene, if there) and what is given.
@@ -54,6 +58,9 @@ std::string to_toml(const Config& config);
 
 /// The settings that decide a bake's result, as JSON for the manifest.
 std::string settings_json(const Config& config);
+
+/// Those of them that decide an unwrap's.
+std::string unwrap_settings_json(const Config& config);
 
 /// Reads the scene and finds its monitors; tells stderr what was dropped or repaired, unless quiet.
 Scene load_scene(const Given& given, const Config& config);

@@ -2,15 +2,15 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <chrono>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "baker/cli/commands.h"
 #include "baker/cli/density_summary.h"
+#include "baker/cli/existing_uv.h"
 #include "baker/cli/options.h"
 #include "baker/cli/progress.h"
-#include "baker/write/baked_glb.h"
-#include "baker/write/file.h"
+#include "baker/write/unwrap_output.h"
 #include "runtime/base/error.h"
 #include "runtime/scene/gltf.h"
 
@@ -27,7 +27,31 @@ void find_monitors_if_any(Scene& scene, const Given& given, const Config& config
     }
 }
 
+/// FILE.glb, else a folder.
+bool is_glb_name(const std::filesystem::path& out) {
+    std::error_code ignored;
+    if (out.extension() == ".gltf")
+        throw Error(ErrorKind::usage, out.string() + ": a .glb is written, not a .gltf; rename it, or give a folder");
+    return out.extension() == ".glb" && !std::filesystem::is_directory(out, ignored);
+}
+
+void print_summary(const Unwrapped& unwrapped) {
+    const Atlas& atlas = unwrapped.atlas;
+    const UnwrapNumbers& n = unwrapped.numbers;
+    print_uv_choice(atlas);
+    print_density_weights(atlas);
+    for (const std::string& warning : atlas.warnings) fmt::print(stderr, "warning: {}\n", warning);
+    fmt::print(stderr, "{} charts at {:.4g} texels per metre on {}{} x {}; {:.1f} s\n", n.charts,
+               atlas.texels_per_metre, atlas.pages > 1 ? fmt::format("{} maps of ", atlas.pages) : "", atlas.width,
+               atlas.height, unwrapped.seconds);
+    fmt::print(
+        stderr,
+        "density efficiency {:.3f}, symmetric Dirichlet energy {:.4g} (4: no distortion), smooth seams {:.3g} m\n",
+        n.density_efficiency, n.symmetric_dirichlet, n.smooth_seam_length);
+}
+
 int unwrap_scene(const Given& given, const std::filesystem::path& out) {
+    const bool is_file = is_glb_name(out);
     const Config config = effective_config(given);
     if (given.print_config) {
         fmt::print("{}", to_toml(config));
@@ -37,24 +61,21 @@ int unwrap_scene(const Given& given, const std::filesystem::path& out) {
     Scene scene = read_gltf(given.scene);
     find_monitors_if_any(scene, given, config);
     if (!given.quiet) print_notes(scene);
-    const Atlas atlas = unwrap(scene, config.bake.unwrap, make_progress(given.progress, given.quiet));
-    std::error_code ignored;
-    if (std::filesystem::equivalent(out, given.scene, ignored))
-        throw Error(ErrorKind::usage, out.string() + ": is the input; choose another file with -o");
-    write_file(out, make_baked_glb(scene, atlas, {}));
-    if (given.json) {
-        nlohmann::ordered_json json{{"file", out.string()},          {"width", atlas.width},
-                                    {"height", atlas.height},        {"pages", atlas.pages},
-                                    {"charts", atlas.charts.size()}, {"texels_per_metre", atlas.texels_per_metre}};
-        fmt::print("{}\n", json.dump(2));
-    } else {
-        fmt::print("{}\n", out.string());
-    }
-    if (!given.quiet) print_density_weights(atlas);
-    if (!given.quiet)
-        fmt::print(stderr, "{} charts at {:.4g} texels per metre on {}{} x {}\n", atlas.charts.size(),
-                   atlas.texels_per_metre, atlas.pages > 1 ? fmt::format("{} maps of ", atlas.pages) : "", atlas.width,
-                   atlas.height);
+    const Progress progress = make_progress(given.progress, given.quiet);
+
+    Unwrapped unwrapped;
+    unwrapped.settings_json = unwrap_settings_json(config);
+    const auto start = std::chrono::steady_clock::now();
+    with_picture_of_faults(scene, config.bake.unwrap, is_file ? out.parent_path() : out,
+                           [&] { unwrapped.atlas = unwrap(scene, config.bake.unwrap, progress); });
+    unwrapped.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    unwrapped.numbers = measure(scene, unwrapped.atlas);
+    const UnwrapOutput output =
+        is_file ? write_unwrapped_glb(out, scene, unwrapped) : write_unwrap(out, scene, unwrapped, progress);
+    if (!given.quiet) print_summary(unwrapped);
+    if (given.json) fmt::print("{}", output.report);
+    for (const auto& path : output.paths)
+        if (!given.json) fmt::print("{}\n", path.string());
     return 0;
 }
 
@@ -62,16 +83,15 @@ int unwrap_scene(const Given& given, const std::filesystem::path& out) {
 
 Run add_unwrap_command(CLI::App& app) {
     const auto given = std::make_shared<Given>();
-    const auto out = std::make_shared<std::filesystem::path>();
+    const auto out = std::make_shared<std::filesystem::path>("uv");
     CLI::App* command = app.add_subcommand("unwrap", "Cut a scene into lightmap charts: the scene plus TEXCOORD_1");
     add_scene_options(*command, *given);
     add_unwrap_options(*command, *given);
-    command->add_option("-o,--output", *out, "The .glb to write; default: SCENE's name with .unwrapped.glb")
-        ->type_name("FILE");
-    return [given, out] {
-        if (out->empty()) *out = given->scene.stem().string() + ".unwrapped.glb";
-        return unwrap_scene(*given, *out);
-    };
+    command
+        ->add_option("-o,--output", *out,
+                     "FILE.glb, or a folder for the glb, pictures of charts, density and stretch, and the numbers [uv]")
+        ->type_name("FILE.glb | FOLDER");
+    return [given, out] { return unwrap_scene(*given, *out); };
 }
 
 }  // namespace surimi

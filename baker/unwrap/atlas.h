@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "runtime/base/math.h"
@@ -25,8 +26,8 @@ struct Chart {
 
 /// Why charts get more or fewer texels per metre than the atlas says.
 enum class DensityCause {
-    unreached,   ///< no monitor's light can arrive
-    far,         ///< far from every monitor
+    unreached,    ///< no monitor's light can arrive
+    far,          ///< far from every monitor
     texel_scale,  ///< the user wants it
     full_page     ///< their surface alone fills a page
 };
@@ -52,6 +53,10 @@ struct Atlas {
     std::vector<SurfaceUv> surfaces;  ///< one for each Scene::surfaces
     std::vector<Chart> charts;
     std::vector<DensityWeight> weights;  ///< sorted by surface and cause
+
+    bool is_existing = false;           ///< the UVs are the file's own
+    std::string uv_reason;              ///< why these UVs, where the choice was left to us; else empty
+    std::vector<std::string> warnings;  ///< for the user
 };
 
 }  // namespace surimi

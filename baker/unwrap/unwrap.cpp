@@ -147,7 +147,8 @@ Atlas to_atlas(const Scene& scene, const Work& work, const Layout& layout, const
 
 Atlas unwrap(const Scene& scene, const UnwrapSettings& settings, const Progress& progress) {
     check_settings(scene, settings);
-    if (settings.uv == UvSource::existing) return take_existing(scene, settings);
+    std::string why_new_charts;
+    if (auto existing = take_existing(scene, settings, why_new_charts)) return *existing;
 
     const std::vector<double> scales = texel_scales(scene, settings.texel_scales);
     Work work;
@@ -168,6 +169,7 @@ Atlas unwrap(const Scene& scene, const UnwrapSettings& settings, const Progress&
         atlas.gutter = settings.gutter;
         mark_full_pages(work.charts, work.pages, layout.texels_per_metre, work.weights);
         atlas.weights = list_weights(work.charts, work.weights);
+        atlas.uv_reason = why_new_charts;
         return atlas;
     }
 }

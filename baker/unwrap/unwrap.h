@@ -35,11 +35,11 @@ struct UnwrapSettings {
 };
 
 /// Cuts every surface into charts without flips or overlaps, at one density, and packs them into exactly the size
-/// asked for, or into several pages of that size. Deterministic. Adds nothing to the scene and drops nothing with area. The density follows weigh_charts
-/// and texel_scales; existing UVs keep their own. Throws Error(nothing_to_bake) when the scene has no triangle,
-/// Error(usage) when the charts cannot fit even at the lowest density (it names the smallest size that can) or a texel
-/// scale names nothing, Error(scene) when existing UVs are unfit (missing, out of [0, 1], overlapping, not finite): the
-/// message names surface and triangles.
+/// asked for, or into several pages of that size. Deterministic. Adds nothing to the scene and drops nothing with area.
+/// The density follows weigh_charts and texel_scales; existing UVs keep their own. Throws Error(nothing_to_bake) when
+/// the scene has no triangle, Error(usage) when the charts cannot fit even at the lowest density (it names the smallest
+/// size that can) or a texel scale names nothing, Error(scene) when existing UVs are asked for and unfit (see
+/// judge_existing): the message names surface and triangles.
 Atlas unwrap(const Scene& scene, const UnwrapSettings& settings, const Progress& progress);
 
 }  // namespace surimi

@@ -35,6 +35,15 @@ void PendingFiles::commit() {
     files_.clear();
 }
 
+void make_folder(const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error || !std::filesystem::is_directory(folder))
+        throw Error(ErrorKind::cannot_write,
+                    folder.string() + ": cannot be written: " + (error ? error.message() : "it is no folder") +
+                        "; choose another folder with -o");
+}
+
 void write_bytes(const std::filesystem::path& path, std::span<const uint8_t> bytes) {
     std::ofstream file(path, std::ios::binary);
     file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));

@@ -29,6 +29,9 @@ class PendingFiles {
     std::vector<std::pair<std::filesystem::path, std::filesystem::path>> files_;  // temporary, final
 };
 
+/// Makes a folder, and those that it is in, unless it is there. Throws Error(cannot_write).
+void make_folder(const std::filesystem::path& folder);
+
 /// Writes bytes to a file that exists only once it is complete. Throws Error(cannot_write).
 void write_file(const std::filesystem::path& path, std::span<const uint8_t> bytes);
 

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "baker/unwrap/density.h"
+#include "baker/write/manifest_sections.h"
 
 namespace surimi {
 namespace {
@@ -32,6 +33,7 @@ Json map_section(const Atlas& atlas, const std::vector<ManifestFile>& files) {
                  {"height", atlas.height},
                  {"encoding", {{"exr", "linear"}, {"png", "srgb"}}},
                  {"uvSet", 1},
+                 {"uv", uv_section(atlas)},
                  {"origin", "top-left"},
                  {"texelsPerMetre", atlas.texels_per_metre},
                  {"gutter", atlas.gutter}};
@@ -145,7 +147,14 @@ Json error_section(const Scene& scene, const Bake& bake) {
     return section;
 }
 
-/// Each cause on its own: where two hold for a chart, its density has both factors.
+}  // namespace
+
+Json uv_section(const Atlas& atlas) {
+    Json section{{"source", atlas.is_existing ? "existing" : "unwrap"}};
+    if (!atlas.uv_reason.empty()) section["reason"] = atlas.uv_reason;
+    return section;
+}
+
 Json weights_section(const Scene& scene, const Atlas& atlas) {
     Json section = Json::array();
     for (const DensityWeight& weight : atlas.weights)
@@ -165,6 +174,8 @@ Json notes_section(const Scene& scene) {
         section.push_back({{"what", note.what}, {"count", note.count}, {"where", note.where}});
     return section;
 }
+
+namespace {
 
 Json outputs_section(const std::vector<ManifestFile>& files, int page_count) {
     Json section = Json::array();

@@ -36,13 +36,6 @@ void check_targets(const OutputPaths& paths, const std::filesystem::path& input)
     }
 }
 
-void make_folder(const std::filesystem::path& folder) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error || !std::filesystem::is_directory(folder))
-        throw_cannot_write(folder, (error ? error.message() : "it is no folder") + "; choose another folder with -o");
-}
-
 /// Where a file of the bake is while it is unfinished, and what it will be called.
 struct Draft {
     std::filesystem::path temporary;

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # The command line as a user meets it: commands.sh SURIMI SCENES. Every exit code, no half files, the input untouched.
 set -uo pipefail
-surimi=$1
-theater=$2/home-theater/home-theater.glb
+surimi=$(realpath "$1")
+theater=$(realpath "$2")/home-theater/home-theater.glb
 here=$(cd "$(dirname "$0")" && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -40,6 +40,12 @@ expect 2 "" "$surimi"
 expect 2 "samples must be" "$surimi" bake "$theater" --samples 0
 expect 2 "size must be" "$surimi" bake "$theater" --size 4
 expect 2 "" "$surimi" bake "$theater" --size 64 --density 3
+expect 2 "mips must be" "$surimi" unwrap "$theater" --mips 9
+expect 2 "atlases must be" "$surimi" unwrap "$theater" --atlases 17
+expect 2 "stretch must be" "$surimi" unwrap "$theater" --stretch 1
+expect 2 "uv-quality must be" "$surimi" unwrap "$theater" --uv-quality best
+expect 2 "existing or auto" "$surimi" unwrap "$theater" --uv none
+expect 2 "a .glb is written" "$surimi" unwrap "$theater" -o "$work/x.gltf"
 expect 2 "too small for" "$surimi" bake "$theater" --size 64
 expect 2 "Nobody" "$surimi" bake "$theater" --monitor Nobody
 expect 2 "" "$surimi" bake "$theater" --monitor Monitor_R=X
@@ -99,6 +105,16 @@ expect 0 "samples = 9 " env SURIMI_SAMPLES=8 "$surimi" bake "$theater" --config 
 expect 0 'scale = 0.5' "$surimi" bake "$theater" --config "$work/effective.toml" --print-config
 expect 0 'channel = "B"' "$surimi" bake "$theater" --config "$work/effective.toml" --print-config
 check diff <("$surimi" bake "$theater" --config "$work/effective.toml" --print-config) "$work/effective.toml"
+printf 'uv = "auto"\nmips = 1\natlases = 2\nstretch = 3\nuv-quality = "high"\n' >"$work/uv.toml"
+"$surimi" unwrap "$theater" --config "$work/uv.toml" --print-config >"$work/effective.toml"
+for line in 'uv = "auto"' 'mips = 1 ' 'atlases = 2 ' 'stretch = 3 ' 'uv-quality = "high"'; do
+    check grep -qF "$line" "$work/effective.toml"
+done
+check diff <("$surimi" unwrap "$theater" --config "$work/effective.toml" --print-config) "$work/effective.toml"
+for setting in UV=existing MIPS=2 ATLASES=3 STRETCH=2.5 UV_QUALITY=draft; do
+    expect 0 "${setting#*=}" env "SURIMI_$setting" "$surimi" unwrap "$theater" --config "$work/uv.toml" --print-config
+done
+expect 0 'mips = 4 ' env SURIMI_MIPS=2 "$surimi" unwrap "$theater" --config "$work/uv.toml" --mips 4 --print-config
 
 # A monitor that the configuration describes
 printf '[[monitor]]\nname = "Wall"\nchannel = "G"\ncenter = [0, 1.5, 0]\nhalf_u = [0.5, 0, 0]\nhalf_v = [0, 0.3, 0]\n' >"$work/wall.toml"
@@ -127,6 +143,29 @@ expect 0 '"exposure"' "$surimi" preview "$work/out/home-theater.baked.glb" -o "$
 expect 0 "no visibility map" "$surimi" preview "$theater" -o "$work/plain.png" --size 64 36 --samples 1
 expect 0 "no monitor faces or reaches them" "$surimi" unwrap "$theater" -o "$work/uv.glb" --size 256
 expect 2 "is the input" "$surimi" unwrap "$work/uv.glb" -o "$work/uv.glb" --size 256
+
+# Unwrapping into a folder: the scene, three pictures, the numbers, which do not depend on the number of threads
+expect 0 "home-theater.stretch.png" "$surimi" unwrap "$theater" -o "$work/unwrap/" --size 256 --threads 1
+expect 0 '"densityEfficiency"' "$surimi" unwrap "$theater" -o "$work/unwrap-again/" --size 256 --threads 3 --json
+check diff <(head -n -4 "$work/stdout") <(head -n -4 "$work/unwrap/home-theater.unwrap.json") # all but the seconds
+for name in unwrapped.glb charts.png density.png stretch.png; do
+    check test -s "$work/unwrap/home-theater.$name"
+    check cmp "$work/unwrap/home-theater.$name" "$work/unwrap-again/home-theater.$name"
+done
+check cmp "$work/unwrap/home-theater.unwrapped.glb" "$work/uv.glb"
+expect 0 "home-theater.charts.png" env -C "$work" "$surimi" unwrap "$theater" --size 256 --quiet
+check test -s "$work/uv/home-theater.unwrap.json"
+
+# Existing UVs: fit at their size; unfit at a smaller one, with a picture and a size that helps; auto chooses
+expect 0 "" "$surimi" unwrap "$work/uv.glb" --uv existing --size 256 -o "$work/existing.glb" --quiet
+expect 3 "256 x 256 texels are enough" "$surimi" unwrap "$work/uv.glb" --uv existing --size 128 -o "$work/unfit/x.glb"
+check test -s "$work/unfit/uv.uv-faults.png"
+check test ! -e "$work/unfit/x.glb"
+expect 3 "out-unfit/uv.uv-faults.png" "$surimi" bake "$work/uv.glb" --uv existing --size 128 -o "$work/out-unfit"
+expect 0 "the existing UVs are used" "$surimi" unwrap "$work/uv.glb" --uv auto --size 256 -o "$work/auto.glb"
+expect 0 "new charts are made" "$surimi" unwrap "$work/uv.glb" --uv auto --size 128 -o "$work/auto.glb"
+expect 0 '"reason": "TEXCOORD_1' "$surimi" unwrap "$theater" --uv auto --size 128 -o "$work/auto.glb" --json
+expect 0 "less than the gutter of 8" "$surimi" unwrap "$work/uv.glb" --uv existing --size 256 --gutter 8 -o "$work/existing.glb"
 
 # Comparing
 expect 0 "FLIP           0 " "$surimi" compare "$work/out/home-theater.visibility.exr" "$work/again/home-theater.visibility.exr"
@@ -176,6 +215,18 @@ wait $!
 code=$?
 [[ $code == 130 ]] || fail "exit code $code after an interrupt in place of 130"
 check test -z "$(find "$work/interrupted" -type f 2>/dev/null)"
+checks=$((checks + 1))
+
+"$surimi" unwrap "$theater" --size 2048 --threads 1 -o "$work/interrupted-uv" --progress lines 2>"$work/stderr" &
+for ((i = 0; i < 200; ++i)); do
+    grep -q "^charts" "$work/stderr" && break # from here on it listens
+    sleep 0.05
+done
+kill -INT $!
+wait $!
+code=$?
+[[ $code == 130 ]] || fail "exit code $code after an interrupt of an unwrap in place of 130"
+check test -z "$(find "$work/interrupted-uv" -type f 2>/dev/null)"
 checks=$((checks + 1))
 
 echo "$((checks - failures)) of $checks checks of the command line passed"

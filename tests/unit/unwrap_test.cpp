@@ -198,7 +198,7 @@ TEST(UnwrapExisting, RefusesWhatALightmapCannotUse) {
     EXPECT_NE(message(scene).find("finite"), std::string::npos);
     scene = quads(1);
     scene.surfaces[0].uv_sets[1][3] = {0.35, 0.2};  // folds the second triangle onto the first
-    EXPECT_NE(message(scene).find("overlaps itself: triangles 0 with 1"), std::string::npos);
+    EXPECT_NE(message(scene).find("quad0 with itself: triangles 0 with 1"), std::string::npos);
     const std::string both = message(quads(2));
     EXPECT_NE(both.find("quad0"), std::string::npos);
     EXPECT_NE(both.find("quad1"), std::string::npos);
