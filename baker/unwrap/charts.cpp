@@ -119,13 +119,12 @@ CutSettings cut_settings(const UnwrapSettings& settings) {
 std::vector<FlatChart> cut_into_charts(const FaceGraph& graph, const CutSettings& settings, const Progress& progress) {
     std::vector<uint32_t> faces;
     std::vector<FlatChart> slivers;
-    for (uint32_t f = 0; f < graph.corners.size(); ++f) {
+    for (const uint32_t f : by_rank(graph)) {
         if (graph.is_sliver[f])
             slivers.push_back(make_sliver(f));
         else
             faces.push_back(f);
     }
-    std::sort(faces.begin(), faces.end(), [&](uint32_t a, uint32_t b) { return graph.ranks[a] < graph.ranks[b]; });
     Seams seams(graph);
     std::vector<FlatChart> charts;
     std::vector<std::vector<uint32_t>> pieces = cut_at_creases(graph, faces, settings, seams, charts);

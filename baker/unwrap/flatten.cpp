@@ -59,6 +59,16 @@ Vec2 tightest_axis(const std::vector<Vec2>& hull) {
     return best;
 }
 
+/// Points that are level but for rounding made level, so that rounding does not choose where a hull begins.
+std::vector<Vec2> without_rounding(std::vector<Vec2> points) {
+    double largest = 0;
+    for (const Vec2& p : points) largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
+    if (!(largest > 0)) return points;
+    const double step = 1e-7 * largest;
+    for (Vec2& p : points) p = glm::round(p / step) * step;
+    return points;
+}
+
 double area_of(const std::vector<Vec2>& hull) {
     double doubled = 0;
     for (size_t i = 2; i < hull.size(); ++i) doubled += doubled_area(hull[0], hull[i - 1], hull[i]);
@@ -69,7 +79,7 @@ double area_of(const std::vector<Vec2>& hull) {
 constexpr double empty_share = 0.3;
 
 void turn_into_tightest_box(FlatChart& chart) {
-    const std::vector<Vec2> hull = convex_hull(chart.points);
+    const std::vector<Vec2> hull = convex_hull(without_rounding(chart.points));
     const Vec2 axis = tightest_axis(hull);
     const double hollow = area_of(hull) - chart.flat_area;
     chart.need = chart.stretch * chart.stretch * chart.area * (1 + empty_share * hollow / chart.flat_area);

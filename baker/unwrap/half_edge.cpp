@@ -87,8 +87,7 @@ void rank_faces(FaceGraph& graph) {
 /// The how-manieth face this is on the same three places with the same front. Doubled faces would make every edge a
 /// four-face edge; in layers of their own, the second copy of a wall is a wall as well.
 std::vector<uint32_t> find_layers(const FaceGraph& graph) {
-    std::vector<uint32_t> order(graph.corners.size());
-    for (uint32_t f = 0; f < order.size(); ++f) order[graph.ranks[f]] = f;
+    const std::vector<uint32_t> order = by_rank(graph);
     std::vector<uint32_t> layers(graph.corners.size(), 0);
     for (size_t i = 1; i < order.size(); ++i)
         if (key_of(graph, order[i]) == key_of(graph, order[i - 1])) layers[order[i]] = layers[order[i - 1]] + 1;
@@ -106,10 +105,20 @@ struct EdgeUse {
     bool is_same_edge(const EdgeUse& o) const { return layer == o.layer && low == o.low && high == o.high; }
 };
 
+/// Whether two faces are the two sides of one triangle, which continues nowhere but into itself.
+bool are_back_to_back(const FaceGraph& graph, uint32_t f, uint32_t g) {
+    FaceKey a = graph.corners[f];
+    FaceKey b = graph.corners[g];
+    std::sort(a.begin(), a.end());
+    std::sort(b.begin(), b.end());
+    return a == b;
+}
+
 /// Pairs the uses [begin, end) of one edge: opposite directions, the flattest continuation first.
 void pair_uses(const FaceGraph& graph, const EdgeUse* begin, const EdgeUse* end, std::vector<uint32_t>& partner) {
     struct Match {
-        float bend;  ///< less precise than the normals: what is equal but for rounding is equal
+        int64_t bend;     ///< in millionths: what is equal but for rounding is equal
+        bool is_concave;  ///< of two solids that touch, each keeps to itself
         uint32_t low;
         uint32_t high;
         uint32_t a;
@@ -121,14 +130,20 @@ void pair_uses(const FaceGraph& graph, const EdgeUse* begin, const EdgeUse* end,
         for (const EdgeUse* j = i + 1; j != end; ++j) {
             const uint32_t start_i = graph.corners[i->corner / 3][i->corner % 3];
             const uint32_t start_j = graph.corners[j->corner / 3][j->corner % 3];
-            if (start_i == start_j) continue;
+            if (start_i == start_j || are_back_to_back(graph, i->corner / 3, j->corner / 3)) continue;
+            constexpr double steps = 1e6;
             const double bend = -glm::dot(graph.normals[i->corner / 3], graph.normals[j->corner / 3]);
             const auto [low, high] = std::minmax(rank(i->corner), rank(j->corner));
-            matches.push_back({static_cast<float>(bend), low, high, i->corner, j->corner});
+            const Vec3& edge = graph.positions[graph.corners[i->corner / 3][i->corner % 3]];
+            const Vec3& tip = graph.positions[graph.corners[j->corner / 3][(j->corner + 2) % 3]];
+            constexpr double rounding = 1e-9;
+            const bool is_concave =
+                glm::dot(graph.normals[i->corner / 3], tip - edge) > rounding * glm::length(tip - edge);
+            matches.push_back({std::llround(bend * steps), is_concave, low, high, i->corner, j->corner});
         }
     }
     std::sort(matches.begin(), matches.end(), [](const Match& l, const Match& r) {
-        return std::tie(l.bend, l.low, l.high) < std::tie(r.bend, r.low, r.high);
+        return std::tie(l.bend, l.is_concave, l.low, l.high) < std::tie(r.bend, r.is_concave, r.low, r.high);
     });
     for (const Match& m : matches) {
         if (partner[m.a] != no_face || partner[m.b] != no_face) continue;
@@ -188,6 +203,36 @@ std::vector<uint32_t> unite_fans(const std::vector<uint32_t>& partner) {
     return fan;
 }
 
+/// Two paired edges between the same two fans are more than a half-edge mesh can hold: all but the first of them, by
+/// rank, are taken apart. False when there is none.
+bool part_double_edges(const FaceGraph& graph, const std::vector<uint32_t>& fan, std::vector<uint32_t>& partner) {
+    struct Pair {
+        uint32_t low;  ///< fans
+        uint32_t high;
+        uint32_t rank;
+        uint32_t corner;
+    };
+    std::vector<Pair> pairs;
+    for (uint32_t corner = 0; corner < partner.size(); ++corner) {
+        if (partner[corner] == no_face) continue;
+        const uint32_t rank = graph.ranks[corner / 3];
+        if (graph.ranks[partner[corner] / 3] < rank) continue;
+        const auto [low, high] = std::minmax(fan[corner], fan[after(corner)]);
+        pairs.push_back({low, high, rank, corner});
+    }
+    std::sort(pairs.begin(), pairs.end(), [](const Pair& l, const Pair& r) {
+        return std::tie(l.low, l.high, l.rank) < std::tie(r.low, r.high, r.rank);
+    });
+    bool has_parted = false;
+    for (size_t i = 1; i < pairs.size(); ++i) {
+        if (pairs[i].low != pairs[i - 1].low || pairs[i].high != pairs[i - 1].high) continue;
+        partner[partner[pairs[i].corner]] = no_face;
+        partner[pairs[i].corner] = no_face;
+        has_parted = true;
+    }
+    return has_parted;
+}
+
 HalfEdgeMesh build_mesh(const FaceGraph& graph, const std::vector<uint32_t>& fan) {
     // OpenMesh tells the terminal about every face it refuses; here a refusal is handled.
     [[maybe_unused]] static const bool is_quiet = (omerr().disable(), true);
@@ -199,34 +244,44 @@ HalfEdgeMesh build_mesh(const FaceGraph& graph, const std::vector<uint32_t>& fan
     };
     for (uint32_t corner = 0; corner < fan.size(); ++corner)
         vertices[corner] = fan[corner] == corner ? add_vertex(corner) : vertices[fan[corner]];
-    for (uint32_t f = 0; f < graph.corners.size(); ++f) {
-        const uint32_t c = 3 * f;
+    // By rank: should a face be refused, it is the same one in every order.
+    for (const uint32_t f : by_rank(graph)) {
+        std::array<uint32_t, 3> c{};
+        for (uint32_t k = 0; k < 3; ++k) c[k] = 3 * f + (graph.first_corners[f] + k) % 3;
         HalfEdgeMesh::FaceHandle face;
         // A face that closes on itself (two corners in one fan) is a sliver or a cone of two faces.
-        const bool is_simple =
-            vertices[c] != vertices[c + 1] && vertices[c + 1] != vertices[c + 2] && vertices[c + 2] != vertices[c];
-        if (is_simple) face = mesh.add_face(vertices[c], vertices[c + 1], vertices[c + 2]);
+        const std::array<HalfEdgeMesh::VertexHandle, 3> v{vertices[c[0]], vertices[c[1]], vertices[c[2]]};
+        if (v[0] != v[1] && v[1] != v[2] && v[2] != v[0]) face = mesh.add_face(v[0], v[1], v[2]);
         // Two paired edges between the same two fans: the face becomes an island, so that none is lost.
-        if (!face.is_valid()) face = mesh.add_face(add_vertex(c), add_vertex(c + 1), add_vertex(c + 2));
-        assert(face.is_valid() && face.idx() == static_cast<int>(f));
+        if (!face.is_valid()) face = mesh.add_face(add_vertex(c[0]), add_vertex(c[1]), add_vertex(c[2]));
+        assert(face.is_valid() && face.idx() == static_cast<int>(graph.ranks[f]));
     }
     return mesh;
 }
 
 }  // namespace
 
+std::vector<uint32_t> by_rank(const FaceGraph& graph) {
+    std::vector<uint32_t> faces(graph.ranks.size());
+    for (uint32_t f = 0; f < faces.size(); ++f) faces[graph.ranks[f]] = f;
+    return faces;
+}
+
 FaceGraph build_face_graph(const Surface& surface) {
     FaceGraph graph;
     weld(surface, graph);
     measure_faces(graph);
     rank_faces(graph);
-    const std::vector<uint32_t> fan = unite_fans(pair_edges(graph));
+    std::vector<uint32_t> partner = pair_edges(graph);
+    std::vector<uint32_t> fan = unite_fans(partner);
+    while (part_double_edges(graph, fan, partner)) fan = unite_fans(partner);
     const HalfEdgeMesh mesh = build_mesh(graph, fan);
     assert(mesh.n_faces() == graph.corners.size());
+    const std::vector<uint32_t> faces = by_rank(graph);
     graph.neighbours.assign(graph.corners.size(), {no_face, no_face, no_face});
     for (uint32_t f = 0; f < graph.corners.size(); ++f) {
         if (graph.is_sliver[f]) continue;
-        const auto face = mesh.face_handle(f);
+        const auto face = mesh.face_handle(graph.ranks[f]);
         // OpenMesh names the half-edge that enters the first corner; the edge from corner 0 comes after it.
         auto edge = mesh.halfedge_handle(face);
         const Vec3& first = graph.positions[graph.corners[f][0]];
@@ -237,7 +292,7 @@ FaceGraph build_face_graph(const Surface& surface) {
         }
         for (uint32_t k = 0; k < 3; ++k) {
             const auto beyond = mesh.face_handle(mesh.opposite_halfedge_handle(edge));
-            if (beyond.is_valid()) graph.neighbours[f][k] = static_cast<uint32_t>(beyond.idx());
+            if (beyond.is_valid()) graph.neighbours[f][k] = faces[static_cast<size_t>(beyond.idx())];
             edge = mesh.next_halfedge_handle(edge);
         }
     }

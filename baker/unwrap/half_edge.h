@@ -28,6 +28,9 @@ struct FaceGraph {
                                          ///< Has no neighbours
 };
 
+/// All faces, in the order of their ranks.
+std::vector<uint32_t> by_rank(const FaceGraph& graph);
+
 /// Welds vertices at identical places (-0.0 is 0.0) and finds the neighbours. What is found, and everything that walks
 /// faces by rank, is the same for any order of the surface's triangles, vertices and corners. Places that differ in the
 /// last digit stay apart: the file keeps them apart, and so does everyone who looks for seams in it.

@@ -102,7 +102,9 @@ Division divide_evenly(const FaceGraph& graph, const FlatChart& chart, uint32_t 
         double best_worth = INFINITY;
         double best_at = 0;
         for (int i = 0; i < tries; ++i) {
-            const double at = (cut + 0.2 * (i - tries / 2) / (tries - 1)) / count;
+            // Beside the places where regular strips have their edges, so that rounding does not choose.
+            constexpr double beside = 7.3e-6;
+            const double at = (cut + 0.2 * (i - tries / 2) / (tries - 1)) / count + beside;
             SeamLength seam;
             for (const Crossing& c : crossings) {
                 if (c.from > at || c.to <= at) continue;
@@ -159,11 +161,11 @@ std::vector<FlatChart> shorten(const FaceGraph& graph, const FlatChart& chart, c
 
 }  // namespace
 
-void shorten_charts(const std::vector<FaceGraph>& graphs, const std::vector<double>& factors,
+void shorten_charts(const std::vector<FaceGraph>& graphs, const std::vector<double>& factors, double aspect,
                     std::vector<FlatChart>& charts) {
     double need = 0;
     for (size_t i = 0; i < charts.size(); ++i) need += charts[i].need * factors[i] * factors[i];
-    const double easy = easy_length * std::sqrt(need / filled_share);
+    const double easy = easy_length * std::sqrt(need / filled_share * aspect);
     std::vector<std::vector<FlatChart>> pieces(charts.size());
     parallel_for(charts.size(), 1, [&](size_t i) {
         const Room room{need / (factors[i] * factors[i]), easy / factors[i]};

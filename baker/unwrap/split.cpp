@@ -64,7 +64,10 @@ Shape mean_of(const Patch& patch, const std::vector<Shape>& shapes, const std::v
         sum.place += patch.areas[t] * shapes[t].place;
         area += patch.areas[t];
     }
-    return {normalize_or(sum.normal, Vec3(0)), sum.place / area};
+    // Of a closed patch the normals cancel but for rounding: it has no direction.
+    constexpr double rounding = 1e-9;
+    const bool is_directed = glm::length(sum.normal) > rounding * area;
+    return {is_directed ? glm::normalize(sum.normal) : Vec3(0), sum.place / area};
 }
 
 /// Grows two parts from their seeds, always by the face that differs least from its part's mean.

@@ -17,7 +17,8 @@ std::optional<std::array<uint32_t, 2>> find_overlap(const FlatChart& chart) {
     // to round_chart, which knows the final coordinates.
     constexpr double units = 1 << 22;
     constexpr double margin = 3;
-    const auto pairs = overlapping_pairs(rounded_triangles(chart, units), margin, 64);
+    constexpr size_t all = 1 << 16;  // but in piles; a few of many would be those that rounding puts first
+    const auto pairs = overlapping_pairs(rounded_triangles(chart, units), margin, all);
     if (pairs.empty()) return std::nullopt;
     return pairs[pairs.size() / 2];
 }

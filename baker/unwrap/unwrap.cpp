@@ -143,6 +143,11 @@ Atlas to_atlas(const Scene& scene, const Work& work, const Layout& layout, const
     return atlas;
 }
 
+double aspect_of(const UnwrapSettings& settings) {
+    if (settings.texels_per_metre > 0) return 1;  // the size that follows is square
+    return static_cast<double>(std::max(settings.width, settings.height)) / std::min(settings.width, settings.height);
+}
+
 }  // namespace
 
 Atlas unwrap(const Scene& scene, const UnwrapSettings& settings, const Progress& progress) {
@@ -154,7 +159,7 @@ Atlas unwrap(const Scene& scene, const UnwrapSettings& settings, const Progress&
     Work work;
     cut_scene(scene, settings, progress, work);
     work.weights = weigh_charts(scene, work.charts, scales);
-    shorten_charts(work.graphs, factors_of(work.weights), work.charts);
+    shorten_charts(work.graphs, factors_of(work.weights), aspect_of(settings), work.charts);
     work.weights = weigh_charts(scene, work.charts, scales);
     for (int round = 0;; ++round) {
         const std::vector<double> factors = factors_of(work.weights);
