@@ -125,6 +125,7 @@ void read_unwrap_key(const std::string& key, const toml::node& node, const Place
     if (key == "size") read_size(node, place, settings);
     if (key == "density") settings.texels_per_metre = value_of<double>(node, key, place);
     if (key == "gutter") settings.gutter = value_of<int>(node, key, place);
+    if (key == "uniform") settings.is_uniform = value_of<bool>(node, key, place);
     if (key == "mips") settings.mips = value_of<int>(node, key, place);
     if (key == "atlases") settings.atlases = value_of<int>(node, key, place);
     if (key == "stretch") settings.stretch = value_of<double>(node, key, place);
@@ -156,8 +157,8 @@ void read_config_file(const std::filesystem::path& path, Config& config) {
                                                   std::string(error.description())));
     }
     check_keys(table,
-               {"size", "density", "gutter", "mips", "atlases", "stretch", "uv", "uv-quality", "samples", "seed",
-                "threads", "monitor", "texel_scale"},
+               {"size", "density", "gutter", "mips", "atlases", "stretch", "uv", "uv-quality", "uniform", "samples",
+                "seed", "threads", "monitor", "texel_scale"},
                place);
     if (table.contains("size") && table.contains("density"))
         place.fail(*table.get("density"), "\"size\" and \"density\" exclude each other: one follows from the other");

@@ -64,6 +64,8 @@ void add_unwrap_options(CLI::App& app, Given& given) {
                    "draft, medium or high: how long fewer and longer charts are sought [medium]")
         ->type_name("QUALITY")
         ->envname("SURIMI_UV_QUALITY");
+    app.add_flag("--uniform", given.is_uniform,
+                 "One density for all: no fewer texels for what no monitor lights, or from afar");
     app.add_flag("--print-config", given.print_config, "Print the settings in effect as TOML and stop");
 }
 
@@ -97,6 +99,7 @@ Config effective_config(const Given& given) {
     if (given.mips) unwrap.mips = *given.mips;
     if (given.atlases) unwrap.atlases = *given.atlases;
     if (given.stretch) unwrap.stretch = *given.stretch;
+    if (given.is_uniform) unwrap.is_uniform = true;
     if (given.uv_quality) unwrap.quality = parse_uv_quality(*given.uv_quality, "--uv-quality");
     if (given.samples) config.bake.gather.samples = *given.samples;
     if (given.seed) config.bake.gather.seed = *given.seed;
@@ -135,6 +138,7 @@ std::string to_toml(const Config& config) {
     text += fmt::format("atlases = {}              # maps\n", unwrap.atlases);
     text += fmt::format("stretch = {}            # above 1\n", unwrap.stretch);
     text += fmt::format("uv-quality = \"{}\"    # draft, medium, high\n", name_of(unwrap.quality));
+    text += fmt::format("uniform = {}          # one density for all\n", unwrap.is_uniform);
     text += fmt::format("samples = {}            # rays for each texel and monitor\n", config.bake.gather.samples);
     text += fmt::format("seed = {}\n", config.bake.gather.seed);
     text += fmt::format("threads = {}              # 0: all cores\n", config.threads);
@@ -172,6 +176,7 @@ nlohmann::ordered_json unwrap_json(const UnwrapSettings& unwrap) {
     json["mips"] = unwrap.mips;
     json["atlases"] = unwrap.atlases;
     json["stretch"] = unwrap.stretch;
+    json["uniform"] = unwrap.is_uniform;
     json["uvQuality"] = name_of(unwrap.quality);
     for (const TexelScale& wish : unwrap.texel_scales) {
         nlohmann::ordered_json& item = json["texel_scale"].emplace_back();

@@ -26,6 +26,7 @@ struct Given {
     std::optional<double> density;
     std::optional<int> gutter;
     std::optional<int> mips;
+    bool is_uniform = false;
     std::optional<int> atlases;
     std::optional<double> stretch;
     std::optional<std::string> uv_quality;

@@ -108,12 +108,12 @@ std::vector<std::vector<uint32_t>> cut_at_creases(const FaceGraph& graph, const 
 
 }  // namespace
 
-CutSettings cut_settings(const UnwrapSettings& settings) {
+CutSettings cut_settings(const UnwrapSettings& settings, double texels) {
     const double excess = settings.stretch - 1;
     const auto bound = [](double e) { return DistortionBound{4 + 0.4 * e * e, 1 + e}; };
     constexpr double comfort = 0.6;
     constexpr double patience = 1.06;
-    return {bound(excess), bound(comfort * excess), bound(patience * excess), settings.quality};
+    return {bound(excess), bound(comfort * excess), bound(patience * excess), settings.quality, texels};
 }
 
 std::vector<FlatChart> cut_into_charts(const FaceGraph& graph, const CutSettings& settings, const Progress& progress) {

@@ -18,9 +18,10 @@ struct CutSettings {
     DistortionBound comfort;   ///< pieces above it are split further, and joined again only where that pays
     DistortionBound patience;  ///< of a piece that would otherwise fall into crumbs
     UvQuality quality = UvQuality::medium;
+    double texels = 0;  ///< that the surface will have, about: seams finer than the map are not worth the time
 };
 
-CutSettings cut_settings(const UnwrapSettings& settings);
+CutSettings cut_settings(const UnwrapSettings& settings, double texels);
 
 /// Cuts the whole surface at its creases; tries each piece whole, and splits it while it cannot be flattened within the
 /// bound without overlap; then joins charts where that saves visible seam. Slivers are charts of their own. Every chart

@@ -181,11 +181,16 @@ double density_factor(const ChartWeight& weight) {
     return weight.unreached * weight.far * weight.scale;
 }
 
-std::vector<ChartWeight> weigh_charts(const Scene& scene, const std::vector<FlatChart>& charts,
-                                      const std::vector<double>& scales) {
+std::vector<ChartWeight> wished_weights(const std::vector<FlatChart>& charts, const std::vector<double>& scales) {
     std::vector<ChartWeight> weights(charts.size());
     for (size_t c = 0; c < charts.size(); ++c)
         if (!charts[c].is_sliver) weights[c].scale = scales[charts[c].surface];
+    return weights;
+}
+
+std::vector<ChartWeight> weigh_charts(const Scene& scene, const std::vector<FlatChart>& charts,
+                                      const std::vector<double>& scales) {
+    std::vector<ChartWeight> weights = wished_weights(charts, scales);
     std::vector<Lamp> lamps;
     for (size_t m = 0; m < scene.monitors.size(); ++m) add_lamps(scene.monitors[m], static_cast<int>(m), lamps);
     if (lamps.empty()) return weights;

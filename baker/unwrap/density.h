@@ -21,7 +21,10 @@ struct ChartWeight {
 /// The product of all that are known before packing.
 double density_factor(const ChartWeight& weight);
 
-/// The weights of `charts`, one for each; `scales` has the user's for each surface.
+/// The user's weights alone; `scales` has them for each surface.
+std::vector<ChartWeight> wished_weights(const std::vector<FlatChart>& charts, const std::vector<double>& scales);
+
+/// The weights of `charts`, one for each; `scales` as above.
 ///
 /// The rule. All light of this map comes from the monitors. A chart that none of it can reach (is_reached: exactly,
 /// shadows left out) has a visibility of 0 or none at all, and gets an eighth of the density. A monitor's own surface

@@ -23,13 +23,35 @@ uint32_t after(uint32_t corner) {
     return corner % 3 == 2 ? corner - 2 : corner + 1;
 }
 
+/// Places in coarse steps of the bounding box: places that are level but for rounding are level. The number of steps is
+/// such that the places of regular meshes lie on no border between two.
+std::vector<std::array<int32_t, 3>> coarse_places(const std::vector<Vec3>& places) {
+    Vec3 low(INFINITY);
+    Vec3 high(-INFINITY);
+    for (const Vec3& p : places) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    const double extent = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+    constexpr double steps = 987654.321;
+    const double scale = extent > 0 ? steps / extent : 0;
+    std::vector<std::array<int32_t, 3>> coarse;
+    coarse.reserve(places.size());
+    for (const Vec3& p : places) {
+        const Vec3 q = glm::round((p - low) * scale);
+        coarse.push_back({static_cast<int32_t>(q.x), static_cast<int32_t>(q.y), static_cast<int32_t>(q.z)});
+    }
+    return coarse;
+}
+
 void weld(const Surface& surface, FaceGraph& graph) {
     const size_t count = surface.positions.size();
     std::vector<Vec3> places(count);
     for (size_t i = 0; i < count; ++i) places[i] = surface.positions[i] + 0.0;
+    const auto coarse = coarse_places(places);
     std::vector<uint32_t> order(count);
     std::iota(order.begin(), order.end(), 0u);
-    const auto key = [&](uint32_t i) { return std::make_tuple(places[i].x, places[i].y, places[i].z, i); };
+    const auto key = [&](uint32_t i) { return std::make_tuple(coarse[i], places[i].x, places[i].y, places[i].z, i); };
     std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return key(a) < key(b); });
     std::vector<uint32_t> welded(count);
     for (size_t i = 0; i < count; ++i) {

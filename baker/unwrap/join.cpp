@@ -50,7 +50,9 @@ class Joiner {
             for (const uint32_t f : charts[c].faces) chart_of_[f] = c;
             faces += charts[c].faces.size();
         }
-        effort_ = effort_of(settings.quality) * static_cast<double>(faces);
+        constexpr double triangles_per_texel = 50;
+        effort_ =
+            std::min(effort_of(settings.quality) * static_cast<double>(faces), triangles_per_texel * settings.texels);
     }
 
     void run(const Progress& progress) {
@@ -89,6 +91,17 @@ class Joiner {
         if (run.charts[0] == run.charts[1]) return false;
         constexpr double crumb_share = 0.02;
         return std::min(a.area, b.area) < crumb_share * std::max(a.area, b.area);
+    }
+
+    /// The distortion beyond which a chart of this area cannot be worth the seam that is saved. The energy that goes
+    /// with a stretch is known within a factor only.
+    DistortionBound bound_worth_it(const Run& run, double area) const {
+        const auto [a, b] = run.charts;
+        const double most = charts_[a].need + (a == b ? 0 : charts_[b].need) + worth_of(run.length, area);
+        const double stretch = std::max(1.0, std::sqrt(most / area));
+        constexpr double slack = 2.5;
+        const double energy = 4 + slack * 0.4 * (stretch - 1) * (stretch - 1);
+        return {std::min(settings_.bound.energy, energy), std::min(settings_.bound.stretch, stretch)};
     }
 
     /// Whether the seam that is saved is worth the texels that the joined chart needs more.
@@ -156,7 +169,7 @@ class Joiner {
         std::sort(faces.begin(), faces.end(),
                   [&](uint32_t l, uint32_t r) { return graph_.ranks[l] < graph_.ranks[r]; });
         const Patch patch = build_patch(graph_, seams_, std::move(faces), number_);
-        Attempt attempt = try_chart(graph_, patch, settings_.bound);
+        Attempt attempt = try_chart(graph_, patch, bound_worth_it(run, patch.unit * patch.unit));
         if (!attempt.chart || !is_worth_it(run, *attempt.chart)) {
             for (const Edge& edge : run.edges) set_seam(graph_, edge.face, edge.k, true, seams_);
             return false;

@@ -45,13 +45,33 @@ void check_settings(const Scene& scene, const UnwrapSettings& settings) {
                                           std::to_string(settings.width) + " x " + std::to_string(settings.height));
 }
 
+/// About how many texels each surface will have.
+std::vector<double> expected_texels(const Scene& scene, const UnwrapSettings& settings) {
+    std::vector<double> areas(scene.surfaces.size(), 0.0);
+    double whole = 0;
+    for (size_t s = 0; s < areas.size(); ++s) {
+        const Surface& surface = scene.surfaces[s];
+        for (const auto& t : surface.triangles) {
+            const Vec3& a = surface.positions[t[0]];
+            areas[s] += 0.5 * glm::length(area_normal(a, surface.positions[t[1]], surface.positions[t[2]]));
+        }
+        whole += areas[s];
+    }
+    const double map = static_cast<double>(settings.width) * settings.height * settings.atlases;
+    const double density =
+        settings.texels_per_metre > 0 ? settings.texels_per_metre : std::sqrt(whole > 0 ? map / whole : 0);
+    for (double& area : areas) area *= density * density;  // texels now
+    return areas;
+}
+
 void cut_scene(const Scene& scene, const UnwrapSettings& settings, const Progress& progress, Work& work) {
     work.graphs.resize(scene.surfaces.size());
     std::vector<std::vector<FlatChart>> charts(scene.surfaces.size());
+    const std::vector<double> texels = expected_texels(scene, settings);
     parallel_stage("charts", scene.surfaces.size(), 1, progress, [&](size_t begin, size_t end) {
         for (size_t s = begin; s < end; ++s) {
             work.graphs[s] = build_face_graph(scene.surfaces[s]);
-            charts[s] = cut_into_charts(work.graphs[s], cut_settings(settings), progress);
+            charts[s] = cut_into_charts(work.graphs[s], cut_settings(settings, texels[s]), progress);
             for (FlatChart& chart : charts[s]) chart.surface = static_cast<uint32_t>(s);
         }
     });
@@ -143,6 +163,11 @@ Atlas to_atlas(const Scene& scene, const Work& work, const Layout& layout, const
     return atlas;
 }
 
+std::vector<ChartWeight> weigh(const Scene& scene, const UnwrapSettings& settings, const std::vector<FlatChart>& charts,
+                               const std::vector<double>& scales) {
+    return settings.is_uniform ? wished_weights(charts, scales) : weigh_charts(scene, charts, scales);
+}
+
 double aspect_of(const UnwrapSettings& settings) {
     if (settings.texels_per_metre > 0) return 1;  // the size that follows is square
     return static_cast<double>(std::max(settings.width, settings.height)) / std::min(settings.width, settings.height);
@@ -158,9 +183,9 @@ Atlas unwrap(const Scene& scene, const UnwrapSettings& settings, const Progress&
     const std::vector<double> scales = texel_scales(scene, settings.texel_scales);
     Work work;
     cut_scene(scene, settings, progress, work);
-    work.weights = weigh_charts(scene, work.charts, scales);
+    work.weights = weigh(scene, settings, work.charts, scales);
     shorten_charts(work.graphs, factors_of(work.weights), aspect_of(settings), work.charts);
-    work.weights = weigh_charts(scene, work.charts, scales);
+    work.weights = weigh(scene, settings, work.charts, scales);
     for (int round = 0;; ++round) {
         const std::vector<double> factors = factors_of(work.weights);
         const FitRequest request{work.charts, factors, settings.gutter, progress};

@@ -27,6 +27,7 @@ struct UnwrapSettings {
     int gutter = 2;               ///< at least 1
     int mips = 0;                 ///< mip levels that gutters survive: one texel of gutter is left on level `mips`
     int atlases = 1;              ///< pages to spread the surfaces over, 1 to 64, each of the size above
+    bool is_uniform = false;      ///< one density for all but texel scales: what the monitors light does not count
     double stretch = 1.5;         ///< above 1: 99 % of a chart's area has at least 1 / stretch of its density in every
                                   ///< direction, and its mean symmetric Dirichlet energy is at most
                                   ///< 4 + 0.4 (stretch - 1)^2
