@@ -51,7 +51,7 @@ Vec2 tightest_axis(const std::vector<Vec2>& hull) {
         }
         const double area = (high.x - low.x) * (high.y - low.y);
         // Nearly equal boxes: the first stays, so that rounding does not choose.
-        if (area < least * (1 - 1e-9)) {
+        if (area < least * (1 - 1e-6)) {
             least = area;
             best = edge / length;
         }

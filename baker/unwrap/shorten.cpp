@@ -111,8 +111,9 @@ Division divide_evenly(const FaceGraph& graph, const FlatChart& chart, uint32_t 
                 seam.visible += c.length.visible;
                 seam.all += c.length.all;
             }
-            // Cuts that show alike: the one nearer to the middle.
-            const double worth = worth_of(seam, chart.area) * (1 + 0.01 * std::abs(i - tries / 2));
+            // Cuts that show alike: the one nearer to the middle, and of two as near the later one.
+            const int off = i - tries / 2;
+            const double worth = worth_of(seam, chart.area) * (1 + 0.01 * std::abs(off) - 0.001 * off);
             if (worth < best_worth) best_worth = worth, best_at = at;
         }
         division.cost += best_worth;
