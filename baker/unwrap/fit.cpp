@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "baker/unwrap/climb.h"
 #include "runtime/base/error.h"
 
 namespace surimi {
@@ -15,8 +16,7 @@ namespace {
 constexpr int largest_map = 16384;
 /// Below this share of the highest conceivable density all charts are as small as they get.
 constexpr double no_density_share = 1e-7;
-
-using MaskSets = std::vector<std::vector<Mask>>;
+const double most_work = 1e6 * (getenv("WORK") ? atoi(getenv("WORK")) : 100);
 
 void tell(const FitRequest& request, double fraction) {
     if (request.progress.is_cancelled && request.progress.is_cancelled())
@@ -24,49 +24,15 @@ void tell(const FitRequest& request, double fraction) {
     if (request.progress.report) request.progress.report("packing", fraction);
 }
 
-MaskSets shape_charts(const FitRequest& request, Layout& layout) {
-    MaskSets masks(request.charts.size());
-    layout.shapes.resize(request.charts.size());
-    constexpr size_t grain = 64;  // charts: some are one texel, some half the map
-    parallel_for(request.charts.size(), grain, [&](size_t i) {
-        layout.shapes[i] = to_texels(request.charts[i], layout.texels_per_metre * request.factors[i], layout.map);
-        // A chart wider than the map needs no mask to be refused, and could be too large for memory.
-        const bool is_too_large =
-            std::max(layout.shapes[i].width, layout.shapes[i].height) > std::max(layout.map.width, layout.map.height);
-        if (!is_too_large) masks[i] = make_masks(request.charts[i], layout.shapes[i], layout.map);
-    });
-    return masks;
+/// The orders and rules that win most often.
+std::optional<Layout> try_to_pack(const PackTask& task, double density) {
+    return try_once(task, density, {{PackOrder::longer_side, PackRule::centre}, {PackOrder::box, PackRule::centre},
+                                    {PackOrder::half_perimeter, PackRule::upper_end}});
 }
 
-bool could_fit(const FitRequest& request, const MaskSets& masks, const MapSize& map) {
-    for (const auto& m : masks)
-        if (m.empty()) return false;
-    const double room = static_cast<double>(map.width + request.gutter) * (map.height + request.gutter);
-    return least_texels(masks, request.gutter) <= room;
-}
-
-bool could_fit(const FitRequest& request, const MapSize& map, double density) {
-    Layout layout{map, density, {}, {}};
-    const MaskSets masks = shape_charts(request, layout);
-    return could_fit(request, masks, map);
-}
-
-std::optional<Layout> try_to_pack(const FitRequest& request, const MapSize& map, double density) {
-    Layout layout{map, density, {}, {}};
-    const MaskSets masks = shape_charts(request, layout);
-    if (!could_fit(request, masks, map)) return std::nullopt;
-    auto placements = pack(masks, map, request.gutter);
-    if (!placements) return std::nullopt;
-    layout.placements = std::move(*placements);
-    return layout;
-}
-
-/// Two tries side by side: the better one that fits. Always both, so that the result does not depend on the
-/// threads.
-std::optional<Layout> try_both(const FitRequest& request, const MapSize& map, double low, double high) {
-    std::array<std::optional<Layout>, 2> tries;
-    parallel_for(2, 1, [&](size_t i) { tries[i] = try_to_pack(request, map, i == 0 ? low : high); });
-    return tries[1] ? std::move(tries[1]) : std::move(tries[0]);
+std::optional<Layout> try_both(const PackTask& task, double low, double high) {
+    std::optional<Layout> better = try_to_pack(task, high);
+    return better ? std::move(better) : try_to_pack(task, low);
 }
 
 /// A density that would make the charts as large as the map.
@@ -94,7 +60,7 @@ int smallest_size(int low, int high, const Fits& fits) {
     const std::string asked = std::to_string(map.width) + " x " + std::to_string(map.height);
     const auto fits = [&](int size) {
         const MapSize square{size, size};
-        return try_to_pack(request, square, highest_density(request, square) * no_density_share).has_value();
+        return try_to_pack(make_task(request, square), highest_density(request, square) * no_density_share).has_value();
     };
     int high = 4;
     while (high < largest_map && !fits(high)) high *= 2;
@@ -107,17 +73,17 @@ int smallest_size(int low, int high, const Fits& fits) {
 }
 
 /// Largest density, to about 2 %, that a count of texels does not rule out.
-double promising_density(const FitRequest& request, const MapSize& map) {
-    double high = highest_density(request, map);
+double promising_density(const PackTask& task) {
+    double high = highest_density(task.request, task.map);
     const double lowest = high * no_density_share;
     double low = high / 2;
-    while (low > lowest && !could_fit(request, map, low)) {
+    while (low > lowest && !could_fit(task, low)) {
         high = low;
         low /= 2;
     }
     for (int i = 0; i < 5; ++i) {  // 2^(1/32)
         const double middle = std::sqrt(low * high);
-        (could_fit(request, map, middle) ? low : high) = middle;
+        (could_fit(task, middle) ? low : high) = middle;
     }
     return high;
 }
@@ -126,48 +92,23 @@ double promising_density(const FitRequest& request, const MapSize& map) {
 
 Layout fit_to_map(const FitRequest& request, const MapSize& map) {
     tell(request, 0);
-    double high = promising_density(request, map);
-    const double lowest = highest_density(request, map) * no_density_share;
-    tell(request, 0.2);
-    std::optional<Layout> best;
-    double low = high;
-    for (double step = 0.94; !best; step *= step) {  // charts usually fill more than 85 % of what a count promises
-        if (low <= lowest) refuse(request, map);
-        high = low;
-        low = std::max(lowest, high * step * step);
-        best = try_both(request, map, low, std::max(lowest, high * step));
-    }
-    if (best->texels_per_metre > low)
-        low = best->texels_per_metre;
-    else
-        high = std::sqrt(low * high);  // the upper of the two tries failed
-    for (int i = 0; i < 3; ++i) {      // thirds: 6 % -> 0.25 %
-        tell(request, 0.4 + 0.15 * i);
-        const double third = std::cbrt(high / low);
-        std::optional<Layout> better = try_both(request, map, low * third, low * third * third);
-        if (!better)
-            high = low * third;
-        else if (better->texels_per_metre > low * third * 1.0000001)
-            low = better->texels_per_metre;
-        else {
-            high = low * third * third;
-            low = better->texels_per_metre;
-        }
-        if (better) best = std::move(better);
-    }
-    // A packing may fail at one density and succeed a little above: one more look.
-    std::optional<Layout> luckier =
-        try_both(request, map, best->texels_per_metre * 1.005, best->texels_per_metre * 1.01);
-    if (luckier) best = std::move(luckier);
+    const PackTask task = make_task(request, map);
+    ClimbLimits limits;
+    limits.start = promising_density(task);
+    limits.lowest = highest_density(request, map) * no_density_share;
+    limits.most_work = static_cast<uint64_t>(most_work * request.effort);
+    Climb result = climb_coarse_to_fine(task, limits);
+    if (!result.best) refuse(request, map);
     tell(request, 1);
-    return std::move(*best);
+    return std::move(*result.best);
 }
 
 Layout fit_near(const FitRequest& request, const MapSize& map, double known) {
+    const PackTask task = make_task(request, map);
     double density = known;
     for (double step = 0.998; density > 0.8 * known; step *= step * step) {
         tell(request, 1);
-        std::optional<Layout> layout = try_both(request, map, density * step, density);
+        std::optional<Layout> layout = try_both(task, density * step, density);
         if (layout) return std::move(*layout);
         density *= step * step;
     }
@@ -178,10 +119,10 @@ Layout fit_to_density(const FitRequest& request, double texels_per_metre) {
     tell(request, 0);
     const auto layout_of = [&](int size) {
         tell(request, 0.5);
-        return try_to_pack(request, {size, size}, texels_per_metre);
+        return try_to_pack(make_task(request, {size, size}), texels_per_metre);
     };
     int high = 4;
-    while (high < largest_map && !could_fit(request, {high, high}, texels_per_metre)) high *= 2;
+    while (high < largest_map && !could_fit(make_task(request, {high, high}), texels_per_metre)) high *= 2;
     std::optional<Layout> best = layout_of(high);
     while (!best && high < largest_map) {
         high *= 2;

@@ -15,6 +15,8 @@ struct FitRequest {
     const std::vector<double>& factors;  ///< density of each chart over the atlas' density
     int gutter = 2;
     const Progress& progress;
+    int mips = 0;       ///< levels on which a texel of gutter is left
+    double effort = 1;  ///< how long better ways to pack are looked for
 };
 
 struct Layout {
@@ -22,6 +24,7 @@ struct Layout {
     double texels_per_metre = 0;
     std::vector<TexelChart> shapes;
     std::vector<Placement> placements;
+    std::vector<std::array<int, 2>> poses;  ///< of each chart: axis (number in pack_axes) and turns
 };
 
 /// Searches for the density to within about 0.3 %, in a fixed sequence of tries. Throws Error(usage) when
