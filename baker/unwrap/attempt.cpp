@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "baker/unwrap/axes.h"
 #include "runtime/base/parallel.h"
@@ -15,36 +16,62 @@ constexpr double boost = 1.2;
 /// ... and slowly back: exponent of its boost with every try.
 constexpr double memory = 0.95;
 
+constexpr int any_turns = -1;
+
 /// Charts at one density, in every pose that is tried.
 struct Shaped {
+    std::vector<uint64_t> work;                   ///< of each chart, as Occupancy::work counts
     std::vector<std::vector<TexelChart>> shapes;  ///< of each chart and axis
     std::vector<std::vector<Mask>> masks;
 };
 
-void shape_chart(const PackTask& task, size_t i, double density, Shaped& result) {
+/// Nanoseconds, about: rows of edges and of masks.
+uint64_t shaping_work(const Outline& outline, const TexelChart& shape) {
+    return 30 * outline.size() + 600 * static_cast<uint64_t>(std::max(shape.width, shape.height));
+}
+
+/// Whether a plan may want the chart in this pose.
+bool is_wanted(const std::vector<PackPlan>& plans, size_t chart, int shape, int turns) {
+    return std::any_of(plans.begin(), plans.end(), [&](const PackPlan& plan) {
+        if (plan.poses.empty()) return true;
+        const Pose& pose = plan.poses[chart];
+        return pose.shape == shape && (turns == any_turns || pose.turns == turns);
+    });
+}
+
+/// Adds the wanted masks of one shape; those of all turns when none of the wanted is there, because a symmetrical
+/// chart's mask comes under one of its names only.
+void add_masks(std::vector<Mask> masks, const std::vector<PackPlan>& plans, size_t chart, std::vector<Mask>& result) {
+    const auto is_good = [&](const Mask& m) { return is_wanted(plans, chart, m.shape, m.turns); };
+    const bool has_good = std::any_of(masks.begin(), masks.end(), is_good);
+    for (Mask& mask : masks)
+        if (!has_good || is_good(mask)) result.push_back(std::move(mask));
+}
+
+void shape_chart(const PackTask& task, size_t i, double density, const std::vector<PackPlan>& plans, Shaped& result) {
     const FlatChart& chart = task.request.charts[i];
     const MapSize& map = task.map;
-    for (const Vec2& axis : task.axes[i]) {
-        TexelChart shape = to_texels(chart, density * task.request.factors[i], map, axis, task.cell);
+    for (int a = 0; a < static_cast<int>(task.axes[i].size()); ++a) {
+        result.shapes[i].emplace_back();
+        if (!is_wanted(plans, i, a, any_turns)) continue;
+        TexelChart shape = to_texels(chart, density * task.request.factors[i], map, task.axes[i][size_t(a)], task.cell);
         // A chart wider than the map needs no mask to be refused, and could be too large for memory.
-        const bool fits_in_some_turn = std::max(shape.width, shape.height) <= std::max(map.width, map.height) &&
-                                       std::min(shape.width, shape.height) <= std::min(map.width, map.height);
-        std::vector<Mask> masks;
-        if (fits_in_some_turn) masks = make_masks(chart, shape, map, task.cell);
-        for (Mask& mask : masks) {
-            if (mask.width * task.cell > map.width || mask.height * task.cell > map.height) continue;
-            mask.shape = static_cast<int>(result.shapes[i].size());
-            result.masks[i].push_back(std::move(mask));
-        }
-        result.shapes[i].push_back(std::move(shape));
+        const auto fits = [&](int width, int height) { return width <= map.width && height <= map.height; };
+        if (!fits(shape.width, shape.height) && !fits(shape.height, shape.width)) continue;
+        std::vector<Mask> masks = make_masks(task.outlines[i], shape, map, task.cell);
+        std::erase_if(masks, [&](const Mask& m) { return !fits(m.width * task.cell, m.height * task.cell); });
+        for (Mask& mask : masks) mask.shape = a;
+        add_masks(std::move(masks), plans, i, result.masks[i]);
+        result.work[i] += shaping_work(task.outlines[i], shape);
+        result.shapes[i].back() = std::move(shape);
     }
 }
 
-Shaped shape_charts(const PackTask& task, double density) {
+Shaped shape_charts(const PackTask& task, double density, const std::vector<PackPlan>& plans) {
     const size_t count = task.request.charts.size();
-    Shaped result{std::vector<std::vector<TexelChart>>(count), std::vector<std::vector<Mask>>(count)};
+    Shaped result{std::vector<uint64_t>(count), std::vector<std::vector<TexelChart>>(count), std::vector<std::vector<Mask>>(count)};
     constexpr size_t grain = 64;  // charts: some are one texel, some half the map
-    parallel_for(count, count < grain ? 1 : grain, [&](size_t i) { shape_chart(task, i, density, result); });
+    parallel_for(count, count < grain ? 1 : grain, [&](size_t i) { shape_chart(task, i, density, plans, result); });
     return result;
 }
 
@@ -70,19 +97,24 @@ void learn(const std::vector<uint32_t>& failed, size_t count, PackPlan& plan) {
 
 PackTask make_task(const FitRequest& request, const MapSize& map) {
     const int cell = 1 << request.mips;
-    PackTask task{request, {}, map, cell, std::max(1, (request.gutter + cell - 1) / cell)};
+    PackTask task{request, {}, {}, map, cell, std::max(1, (request.gutter + cell - 1) / cell)};
     task.axes.resize(request.charts.size());
-    parallel_for(request.charts.size(), 64, [&](size_t i) { task.axes[i] = pack_axes(request.charts[i], map); });
+    task.outlines.resize(request.charts.size());
+    parallel_for(request.charts.size(), 64, [&](size_t i) {
+        task.outlines[i] = chart_outline(request.charts[i]);
+        task.axes[i] = pack_axes(request.charts[i], map);
+    });
     return task;
 }
 
 bool could_fit(const PackTask& task, double density) {
-    return could_fit(task, shape_charts(task, density).masks);
+    return could_fit(task, shape_charts(task, density, {PackPlan{}}).masks);
 }
 
 Attempt attempt(const PackTask& task, double density, std::vector<PackPlan>& plans, bool is_learning) {
     Attempt result;
-    Shaped shaped = shape_charts(task, density);
+    Shaped shaped = shape_charts(task, density, plans);
+    result.work = std::accumulate(shaped.work.begin(), shaped.work.end(), uint64_t{0});
     if (!could_fit(task, shaped.masks)) return result;
     const PackCharts charts = prepare_charts(std::move(shaped.masks));
     const size_t count = charts.masks.size();

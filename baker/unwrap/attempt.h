@@ -12,6 +12,7 @@ namespace surimi {
 /// What stays the same while densities are tried.
 struct PackTask {
     const FitRequest& request;
+    std::vector<Outline> outlines;        ///< of each chart
     std::vector<std::vector<Vec2>> axes;  ///< of each chart: see pack_axes
     MapSize map;
     int cell = 1;    ///< texels: what masks count, and charts are placed at multiples of

@@ -58,6 +58,8 @@ std::vector<Vec2> pack_axes(const FlatChart& chart, const MapSize& map) {
     std::sort(minima.begin(), minima.end(), [](auto& a, auto& b) { return a.area < b.area; });
     for (const Option& o : minima)
         if (o.area < 1.4 * options[0].area) add(o.angle);
+    const size_t cap = getenv("AXES") ? size_t(atoi(getenv("AXES"))) : 9;
+    if (axes.size() > cap) axes.resize(cap);
     if (getenv("A45")) { add(pi / 4);  add(pi / 8); add(3 * pi / 8);}
     return axes;
 }

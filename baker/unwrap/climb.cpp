@@ -44,12 +44,12 @@ int coarseness(const PackTask& task) {
 }
 
 std::vector<PackPlan> first_plans(size_t charts) {
-    constexpr size_t many = 500;  // charts: then orders differ little, and time counts
-    std::vector<PackPlan> plans{{PackOrder::longer_side, PackRule::centre}, {PackOrder::box, PackRule::centre}};
-    if (charts > many) return plans;
-    for (const PackOrder order : {PackOrder::half_perimeter, PackOrder::texels}) plans.push_back({order, PackRule::centre});
-    for (const PackOrder order : {PackOrder::longer_side, PackOrder::half_perimeter, PackOrder::box, PackOrder::texels})
-        plans.push_back({order, PackRule::upper_end});
+    std::vector<PackPlan> plans;
+    const int bits = charts > 500 ? env("PLANSB", 5) : env("PLANS", 255);
+    int i = 0;
+    for (PackRule rule : {PackRule::centre, PackRule::upper_end})
+        for (const PackOrder order : {PackOrder::longer_side, PackOrder::half_perimeter, PackOrder::box, PackOrder::texels})
+            if (bits >> i++ & 1) plans.push_back({order, rule, {}, {}});
     return plans;
 }
 
@@ -102,8 +102,10 @@ Climb climb_coarse_to_fine(const PackTask& task, const ClimbLimits& limits) {
     const Climb learned = climb(coarse, std::move(plans), coarse_limits);
     if (!learned.best) return climb(task, first_plans(task.request.charts.size()), limits);
     plans = learned.successes;
+    if (env("FREE", 0)) {
     plans.push_back(plans[0]);
     plans.back().poses.clear();
+    }
     ClimbLimits fine = limits;
     fine.start = learned.best->texels_per_metre * factor;
     fine.fall = 0.99;

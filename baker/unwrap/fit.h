@@ -24,7 +24,7 @@ struct Layout {
     double texels_per_metre = 0;
     std::vector<TexelChart> shapes;
     std::vector<Placement> placements;
-    std::vector<std::array<int, 2>> poses;  ///< of each chart: axis (number in pack_axes) and turns
+    std::vector<Pose> poses;  ///< of each chart; its shape is the number of the axis in pack_axes
 };
 
 /// Searches for the density to within about 0.3 %, in a fixed sequence of tries. Throws Error(usage) when

@@ -18,106 +18,6 @@ Vec2 to_axis(const Vec2& p, const Vec2& axis) {
     return {glm::dot(p, axis), axis.x * p.y - axis.y * p.x};
 }
 
-/// Touched texels of a box, row by row.
-struct Raster {
-    Raster(int w, int h) : width(w), height(h), texels(static_cast<size_t>(w) * static_cast<size_t>(h), 0) {}
-
-    int width;
-    int height;
-    std::vector<uint8_t> texels;
-
-    uint8_t* row(int y) { return texels.data() + static_cast<size_t>(y) * static_cast<size_t>(width); }
-    const uint8_t* row(int y) const { return texels.data() + static_cast<size_t>(y) * static_cast<size_t>(width); }
-};
-
-/// Least and greatest x of the triangle between y = low and y = high; it reaches into that range.
-std::array<double, 2> extent_between(const FlatTriangle& t, double low, double high) {
-    std::array<double, 2> extent{INFINITY, -INFINITY};
-    const auto add = [&](double x) { extent = {std::min(extent[0], x), std::max(extent[1], x)}; };
-    for (size_t e = 0; e < 3; ++e) {
-        const Vec2& a = t[e];
-        const Vec2& b = t[(e + 1) % 3];
-        if (a.y >= low && a.y <= high) add(a.x);
-        for (const double y : {low, high})
-            if ((a.y < y) != (b.y < y)) add(a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y)));
-    }
-    return extent;
-}
-
-void mark(const FlatTriangle& t, double slack, Raster& raster) {
-    const double low = std::min(t[0].y, std::min(t[1].y, t[2].y)) - slack;
-    const double high = std::max(t[0].y, std::max(t[1].y, t[2].y)) + slack;
-    const int y0 = std::clamp(static_cast<int>(std::floor(low)), 0, raster.height - 1);
-    const int y1 = std::clamp(static_cast<int>(std::floor(high)), 0, raster.height - 1);
-    for (int y = y0; y <= y1; ++y) {
-        const auto [left, right] = extent_between(t, y - slack, y + 1 + slack);
-        if (left > right) continue;
-        const int x0 = std::clamp(static_cast<int>(std::floor(left - slack)), 0, raster.width - 1);
-        const int x1 = std::clamp(static_cast<int>(std::floor(right + slack)), 0, raster.width - 1);
-        std::fill(raster.row(y) + x0, raster.row(y) + x1 + 1, uint8_t{1});
-    }
-}
-
-/// Mirrored at the diagonal: texel (x, y) goes to (y, x).
-Raster transposed(const Raster& raster) {
-    Raster result(raster.height, raster.width);
-    constexpr int block = 32;  // both sides of the copy stay in the cache
-    for (int top = 0; top < raster.height; top += block)
-        for (int x = 0; x < raster.width; ++x)
-            for (int y = top; y < std::min(top + block, raster.height); ++y) result.row(x)[y] = raster.row(y)[x];
-    return result;
-}
-
-/// One texel for each square of `cell` texels a side.
-Raster cells_of(const Raster& raster, int cell) {
-    Raster result(raster.width / cell, raster.height / cell);
-    for (int y = 0; y < raster.height; ++y)
-        for (int x = 0; x < raster.width; ++x) result.row(y / cell)[x / cell] |= raster.row(y)[x];
-    return result;
-}
-
-Mask to_mask(const Raster& raster) {
-    Mask mask;
-    mask.width = raster.width;
-    mask.height = raster.height;
-    for (int y = 0; y < raster.height; ++y) {
-        const uint8_t* row = raster.row(y);
-        const uint8_t* end = row + raster.width;
-        for (const uint8_t* p = std::find(row, end, 1); p != end; p = std::find(p, end, 1)) {
-            const uint8_t* stop = std::find(p, end, 0);
-            mask.runs.push_back({y, static_cast<int>(p - row), static_cast<int>(stop - p)});
-            mask.texels += static_cast<size_t>(stop - p);
-            p = stop;
-        }
-    }
-    return mask;
-}
-
-/// x to width - x, y to height - y, or both.
-Mask flipped(const Mask& mask, bool in_x, bool in_y) {
-    Mask result = mask;
-    for (Mask::Run& run : result.runs) {
-        if (in_x) run.begin = mask.width - run.begin - run.length;
-        if (in_y) run.row = mask.height - 1 - run.row;
-    }
-    // The list is sorted by row, then by x.
-    if (in_y) std::reverse(result.runs.begin(), result.runs.end());
-    if (in_x == in_y) return result;
-    for (auto begin = result.runs.begin(); begin != result.runs.end();) {
-        const auto is_beyond = [&](const Mask::Run& run) { return run.row != begin->row; };
-        const auto end = std::find_if(begin, result.runs.end(), is_beyond);
-        std::reverse(begin, end);
-        begin = end;
-    }
-    return result;
-}
-
-Mask to_full_mask(int width, int height) {
-    Mask mask{width, height, static_cast<size_t>(width) * static_cast<size_t>(height), {}, 0, 0};
-    for (int y = 0; y < height; ++y) mask.runs.push_back({y, 0, width});
-    return mask;
-}
-
 bool is_same(const Mask& a, const Mask& b) {
     return a.width == b.width && a.height == b.height && a.runs == b.runs;
 }
@@ -183,24 +83,46 @@ Vec2 turned(const Vec2& p, const TexelChart& chart, int turns) {
     }
 }
 
-std::vector<Mask> make_masks(const FlatChart& chart, const TexelChart& shape, const MapSize& map, int cell) {
-    const bool is_one = shape.width == cell && shape.height == cell;
-    Raster raster = is_one ? Raster(1, 1) : Raster(shape.width, shape.height);
-    if (is_one)
-        raster.texels[0] = 1;
-    else
-        for (const auto& t : chart.triangles)
-            mark({shape.points[t[0]], shape.points[t[1]], shape.points[t[2]]}, coordinate_slack(map), raster);
-    if (!is_one && cell > 1) raster = cells_of(raster, cell);
-    const Mask upright = to_mask(raster);
+Outline chart_outline(const FlatChart& chart) {
+    std::vector<std::array<uint32_t, 2>> edges;
+    for (const auto& t : chart.triangles)
+        for (size_t k = 0; k < 3; ++k) {
+            const uint32_t a = t[k];
+            const uint32_t b = t[(k + 1) % 3];
+            edges.push_back({std::min(a, b), std::max(a, b)});
+        }
+    std::sort(edges.begin(), edges.end());
+    Outline outline;
+    for (auto begin = edges.begin(); begin != edges.end();) {
+        const auto end = std::find_if(begin, edges.end(), [&](const auto& edge) { return edge != *begin; });
+        if ((end - begin) % 2 != 0) outline.push_back(*begin);
+        begin = end;
+    }
+    return outline;
+}
+
+std::vector<Mask> make_masks(const Outline& outline, const TexelChart& shape, const MapSize& map, int cell) {
+    const auto mask_of = [&](bool is_swapped) {
+        const auto place = [&](const Vec2& p) { return is_swapped ? Vec2(p.y, p.x) : p; };
+        Raster raster(is_swapped ? shape.height : shape.width, is_swapped ? shape.width : shape.height);
+        for (const auto& [a, b] : outline)
+            raster.add_edge(place(shape.points[a]), place(shape.points[b]), coordinate_slack(map));
+        raster.fill();
+        return cell == 1 ? raster.mask() : raster.cells(cell).mask();
+    };
+    if (shape.width == cell && shape.height == cell) {
+        Raster raster(1, 1);
+        raster.add_edge(Vec2(0.5), Vec2(0.5), 0);
+        return {raster.mask()};
+    }
+    const Mask upright = mask_of(false);
+    const Mask swapped = mask_of(true);
     std::vector<Mask> masks;
     const auto add = [&](Mask mask, int turns) {
         mask.turns = turns;
         const auto is_known = [&](const Mask& other) { return is_same(mask, other); };
         if (std::none_of(masks.begin(), masks.end(), is_known)) masks.push_back(std::move(mask));
     };
-    const Mask swapped = upright.texels == raster.texels.size() ? to_full_mask(raster.height, raster.width)
-                                                                : to_mask(transposed(raster));
     // A turn is a swap of x and y and a flip; rotations come first, so that of equal masks one stays unmirrored.
     add(upright, 0);
     add(flipped(swapped, true, false), 1);

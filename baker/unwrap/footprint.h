@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "baker/unwrap/flatten.h"
+#include "baker/unwrap/raster.h"
 
 namespace surimi {
 
@@ -45,25 +46,13 @@ inline constexpr int mirrored = 4;
 /// angles.
 Vec2 turned(const Vec2& p, const TexelChart& chart, int turns);
 
-/// Touched texels as runs, sorted by row, then by x.
-struct Mask {
-    struct Run {
-        int row = 0;
-        int begin = 0;
-        int length = 0;
-        bool operator==(const Run&) const = default;
-    };
-    int width = 0;
-    int height = 0;
-    size_t texels = 0;
-    std::vector<Run> runs;
-    int turns = 0;  ///< see turned()
-    int shape = 0;  ///< for who tries several axes of a chart: which one this is
-};
+/// The edges of a chart with a triangle on one side only, as indices into its points.
+using Outline = std::vector<std::array<uint32_t, 2>>;
+Outline chart_outline(const FlatChart& chart);
 
-/// The chart's texels in the eight poses of turned(), those left out that equal one before. A texel is touched when a
-/// triangle, grown by coordinate_slack, meets its open square. With `cell` above 1 the masks count cells of so many
+/// The chart's texels in the eight poses of turned(), those left out that equal one before. A texel is touched when the
+/// chart, grown by coordinate_slack, meets its open square. With `cell` above 1 the masks count cells of so many
 /// texels in both directions, touched when one of their texels is; the shape's box has to be a multiple.
-std::vector<Mask> make_masks(const FlatChart& chart, const TexelChart& shape, const MapSize& map, int cell = 1);
+std::vector<Mask> make_masks(const Outline& outline, const TexelChart& shape, const MapSize& map, int cell = 1);
 
 }  // namespace surimi

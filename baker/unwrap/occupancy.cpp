@@ -12,28 +12,6 @@ int log_of(int value) {
     return static_cast<int>(std::bit_width(static_cast<unsigned>(value))) - 1;
 }
 
-/// A largest square of touched texels: x, y, side.
-std::array<int, 3> largest_square(const Mask& mask) {
-    const auto width = static_cast<size_t>(mask.width);
-    std::vector<int> above(width + 1, 0);  // sides of the squares whose low corner lies on the row above
-    std::vector<int> here(width + 1, 0);
-    std::array<int, 3> best{0, 0, 0};
-    size_t i = mask.runs.size();
-    for (int y = mask.height - 1; y >= 0; --y) {
-        std::fill(here.begin(), here.end(), 0);
-        for (; i > 0 && mask.runs[i - 1].row == y; --i) {
-            const Mask::Run& run = mask.runs[i - 1];
-            for (int x = run.begin + run.length - 1; x >= run.begin; --x) {
-                const auto at = static_cast<size_t>(x);
-                here[at] = 1 + std::min(here[at + 1], std::min(above[at], above[at + 1]));
-                if (here[at] > best[2]) best = {x, y, here[at]};
-            }
-        }
-        above.swap(here);
-    }
-    return best;
-}
-
 /// Blocks of 2^level side by side from `begin` on over `length` texels, the last one moved back to end with them.
 void cover(int begin, int length, int y, int level, std::vector<Template::Block>& blocks) {
     const int step = 1 << level;
@@ -50,6 +28,7 @@ Template make_template(const Mask& mask) {
     Template t;
     t.width = mask.width;
     t.height = mask.height;
+    t.squares = mask.squares;
     // First every 2^n-th run of the list, then those between: spread over the mask, so that places are ruled out
     // after a few rows.
     const size_t count = mask.runs.size();
@@ -58,16 +37,11 @@ Template make_template(const Mask& mask) {
     };
     t.runs.reserve(2 * count);
     add_run(mask.runs[0]);
+    for (const Mask::Run& run : mask.runs)
+        if (run.length > t.longest.length) t.longest = run;
     for (size_t step = std::bit_ceil(count); step > 1; step /= 2)
         for (size_t i = step / 2; i < count; i += step) add_run(mask.runs[i]);
 
-    const auto [x, y, side] = largest_square(mask);
-    const int level = std::min(Occupancy::square_levels - 1, log_of(side));
-    for (int top = 0;; top += 1 << level) {
-        const int start = std::min(top, side - (1 << level));
-        cover(x, side, y + start, level, t.squares);
-        if (start == side - (1 << level)) break;
-    }
     return t;
 }
 
@@ -75,6 +49,7 @@ Occupancy::Occupancy(const MapSize& map) : map_(map), words_(static_cast<size_t>
     runs_.assign(place(run_levels, 0), 0);
     squares_.assign(place(square_levels, 0), 0);
     largest_.assign(static_cast<size_t>(map.height), square_levels - 1);
+    longest_.assign(static_cast<size_t>(map.height), map.width);
     blocked_.resize(words_);
     refresh_largest(0, map.height - 1);
 }
@@ -105,23 +80,27 @@ bool Occupancy::narrow(size_t& first, size_t& last) const {
     return true;
 }
 
-int Occupancy::first_free(const Template& mask, int y) {
+int Occupancy::first_free(Template& mask, int y) {
     const int places = map_.width - mask.width + 1;
-    const Template::Block& square = mask.squares[0];
+    const Mask::Square& square = mask.squares[0];
     if (places <= 0 || largest_[static_cast<size_t>(y + square.y)] < square.level) return -1;
+    if (longest_[static_cast<size_t>(y + mask.longest.row)] < mask.longest.length) return -1;
     size_t first = 0;
     size_t last = static_cast<size_t>(places - 1) / 64;
     std::fill(blocked_.begin(), blocked_.begin() + static_cast<std::ptrdiff_t>(last + 1), 0);
     if (places % 64 != 0) blocked_[last] = ~Word{0} << (places % 64);
-    for (const Template::Block& b : mask.squares) block(squares_.data() + place(b.level, y + b.y), b.x, first, last);
+    for (const Mask::Square& b : mask.squares) block(squares_.data() + place(b.level, y + b.y), b.x, first, last);
     if (!narrow(first, last)) return -1;
     constexpr size_t look_every = 4;  // runs between two looks whether any place is left
     size_t next_look = look_every;
     for (size_t i = 0; i < mask.runs.size(); ++i) {
-        const Template::Block& b = mask.runs[i];
+        const Template::Block b = mask.runs[i];
         block(runs_.data() + place(b.level, y + b.y), b.x, first, last);
         if (i + 1 < next_look) continue;
-        if (!narrow(first, last)) return -1;
+        if (!narrow(first, last)) {
+            for (size_t k = i; k > i - std::min(i, look_every); --k) std::swap(mask.runs[k], mask.runs[k / 2]);
+            return -1;
+        }
         next_look = i + 1 + look_every;
     }
     if (!narrow(first, last)) return -1;
@@ -172,6 +151,28 @@ void Occupancy::refresh_largest(int low, int high) {
     }
 }
 
+void Occupancy::refresh_longest(int low, int high) {
+    for (int row = low; row <= high; ++row) {
+        const Word* bits = runs_.data() + place(0, row);
+        int longest = 0;
+        int free = 0;
+        for (int x = 0; x < map_.width;) {
+            const Word rest = bits[x >> 6] >> (x & 63);
+            const int taken = std::countr_one(rest);
+            if (taken > 0) {
+                x += taken;
+                free = 0;
+                continue;
+            }
+            const int end = std::min(map_.width, std::min((x | 63) + 1, x + std::countr_zero(rest)));
+            free += end - x;
+            longest = std::max(longest, free);
+            x = end;
+        }
+        longest_[static_cast<size_t>(row)] = longest;
+    }
+}
+
 void Occupancy::take(const Mask& mask, int x, int y, int gutter) {
     for (const Mask::Run& run : mask.runs) {
         const int begin = std::max(0, x + run.begin - gutter);
@@ -190,6 +191,7 @@ void Occupancy::take(const Mask& mask, int x, int y, int gutter) {
     for (int level = 1; level < square_levels; ++level)
         refresh(squares_, level, 1 << (level - 1), {first_word(level), last, lowest(level), high});
     refresh_largest(lowest(square_levels - 1), high);
+    refresh_longest(low, high);
 }
 
 }  // namespace surimi

@@ -12,7 +12,7 @@ namespace surimi {
 
 /// A mask with what the search for a place needs.
 struct Template {
-    /// Texels of a row, or a square of texels: 2^level wide.
+    /// Texels of a row, 2^level of them.
     struct Block {
         int x = 0;
         int y = 0;
@@ -20,8 +20,9 @@ struct Template {
     };
     int width = 0;
     int height = 0;
-    std::vector<Block> squares;  ///< cover a largest square in the mask: they rule most places out
-    std::vector<Block> runs;     ///< cover the mask row by row, in an order that finds collisions early
+    std::vector<Mask::Square> squares;  ///< of the mask: they rule most places out
+    std::vector<Block> runs;            ///< cover the mask row by row, in an order that finds collisions early
+    Mask::Run longest;                  ///< run
 };
 
 Template make_template(const Mask& mask);
@@ -35,8 +36,9 @@ class Occupancy {
 
     const MapSize& size() const { return map_; }
 
-    /// The first x at which the mask, its lowest row at `y`, meets no taken texel; -1 when there is none.
-    int first_free(const Template& mask, int y);
+    /// The first x at which the mask, its lowest row at `y`, meets no taken texel; -1 when there is none. Moves the run
+    /// that ruled out the last place forward: it is likely to do so on the next row too.
+    int first_free(Template& mask, int y);
 
     /// Takes the mask's texels and those within `gutter` of them (in x, y or both), clipped to the map.
     void take(const Mask& mask, int x, int y, int gutter);
@@ -44,7 +46,7 @@ class Occupancy {
     /// Words of 64 places that were looked at so far: a measure of time that is the same on every machine.
     uint64_t work() const { return work_; }
 
-    static constexpr int square_levels = 7;  ///< squares up to 64 texels
+    static constexpr int square_levels = Mask::most_level + 1;
     static constexpr int run_levels = 9;     ///< runs up to 256 texels in one step; longer ones in several
 
   private:
@@ -66,12 +68,14 @@ class Occupancy {
     void take_run(int row, int begin, int end);
     void refresh(std::vector<Word>& bits, int level, int rise, const Range& range);
     void refresh_largest(int low, int high);
+    void refresh_longest(int low, int high);
 
     MapSize map_;
     size_t words_;                 ///< in a row
     std::vector<Word> runs_;       ///< level, row, word
     std::vector<Word> squares_;    ///< level, row, word
     std::vector<int8_t> largest_;  ///< of each row: the largest k with a free square of 2^k standing on it; -1 for none
+    std::vector<int> longest_;     ///< of each row: the most free texels side by side
     std::vector<Word> blocked_;
     uint64_t work_ = 0;
 };

@@ -30,14 +30,19 @@ class Packer {
         // A chart of the same size failed on all rows below the last one's, and the map only fills up.
         const Mask& m = masks[0];
         int& hint = hint_[{std::max(m.width, m.height), std::min(m.width, m.height)}];
+        const auto is_pose = [&](const Mask& mask) {
+            return plan_.poses[chart].shape == mask.shape && plan_.poses[chart].turns == mask.turns;
+        };
+        const bool has_pose = !plan_.poses.empty() && std::any_of(masks.begin(), masks.end(), is_pose);
         std::tuple<int64_t, int> best{INT64_MAX, INT32_MAX};  // height, x
         for (size_t i = 0; i < masks.size(); ++i) {
             const Mask& mask = masks[i];
-            if (!plan_.poses.empty() && plan_.poses[chart] != std::array<int, 2>{mask.shape, mask.turns}) continue;
+            if (has_pose && !is_pose(mask)) continue;
             const int64_t height = height_under(plan_.rule, mask);
             const int last = map.height - mask.height;
+            template_ = charts_.templates[chart][i];
             for (int y = hint; y <= last && 16 * y + height <= std::get<0>(best); ++y) {
-                const int x = taken_.first_free(charts_.templates[chart][i], y);
+                const int x = taken_.first_free(template_, y);
                 if (x < 0) continue;
                 if (std::tuple<int64_t, int>{16 * y + height, x} < best) {
                     best = {16 * y + height, x};
@@ -59,6 +64,7 @@ class Packer {
     int gutter_;
     const PackPlan& plan_;
     Occupancy taken_;
+    Template template_;  ///< of the mask at hand
     std::map<std::array<int, 2>, int> hint_;
 };
 

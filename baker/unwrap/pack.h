@@ -31,12 +31,18 @@ struct PackCharts {
 
 PackCharts prepare_charts(std::vector<std::vector<Mask>> masks);
 
+/// How a chart lies: Mask::shape and Mask::turns.
+struct Pose {
+    int shape = 0;
+    int turns = 0;
+};
+
 /// One way to pack.
 struct PackPlan {
     PackOrder order = PackOrder::longer_side;
     PackRule rule = PackRule::upper_end;
     std::vector<double> boosts = {};            ///< factors of the charts' sizes in the order; empty: all 1
-    std::vector<std::array<int, 2>> poses = {}; ///< shape and turns that each chart has to take; empty: any
+    std::vector<Pose> poses = {};     ///< that each chart has to take, if it has a mask of it; empty: any
 };
 
 struct Packing {
