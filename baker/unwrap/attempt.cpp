@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string>
 
 #include "baker/unwrap/axes.h"
+#include "runtime/base/error.h"
 #include "runtime/base/parallel.h"
 
 namespace surimi {
@@ -13,8 +15,11 @@ namespace {
 
 /// A chart that found no place moves forward as if it were so much larger, ...
 constexpr double boost = 1.2;
-/// ... and slowly back: exponent of its boost with every try.
+/// ... and slowly back: what is left of that after every try.
 constexpr double memory = 0.95;
+/// Charts shorter than this share of the map's side, were the map full, are tried in their tightest box alone: there
+/// are many of them, and little is lost around them.
+constexpr double least_turned = 0.04;
 
 constexpr int any_turns = -1;
 
@@ -54,7 +59,8 @@ void shape_chart(const PackTask& task, size_t i, double density, const std::vect
     for (int a = 0; a < static_cast<int>(task.axes[i].size()); ++a) {
         result.shapes[i].emplace_back();
         if (!is_wanted(plans, i, a, any_turns)) continue;
-        TexelChart shape = to_texels(chart, density * task.request.factors[i], map, task.axes[i][size_t(a)], task.cell);
+        const Vec2& axis = task.axes[i][static_cast<size_t>(a)];
+        TexelChart shape = to_texels(chart, density * task.request.factors[i], map, axis, task.cell);
         // A chart wider than the map needs no mask to be refused, and could be too large for memory.
         const auto fits = [&](int width, int height) { return width <= map.width && height <= map.height; };
         if (!fits(shape.width, shape.height) && !fits(shape.height, shape.width)) continue;
@@ -69,7 +75,10 @@ void shape_chart(const PackTask& task, size_t i, double density, const std::vect
 
 Shaped shape_charts(const PackTask& task, double density, const std::vector<PackPlan>& plans) {
     const size_t count = task.request.charts.size();
-    Shaped result{std::vector<uint64_t>(count), std::vector<std::vector<TexelChart>>(count), std::vector<std::vector<Mask>>(count)};
+    Shaped result;
+    result.work.resize(count);
+    result.shapes.resize(count);
+    result.masks.resize(count);
     constexpr size_t grain = 64;  // charts: some are one texel, some half the map
     parallel_for(count, count < grain ? 1 : grain, [&](size_t i) { shape_chart(task, i, density, plans, result); });
     return result;
@@ -89,7 +98,7 @@ bool could_fit(const PackTask& task, const std::vector<std::vector<Mask>>& masks
 
 void learn(const std::vector<uint32_t>& failed, size_t count, PackPlan& plan) {
     plan.boosts.resize(count, 1);
-    for (double& b : plan.boosts) b = std::pow(b, memory);
+    for (double& b : plan.boosts) b = 1 + memory * (b - 1);
     for (const uint32_t c : failed) plan.boosts[c] *= boost;
 }
 
@@ -97,14 +106,31 @@ void learn(const std::vector<uint32_t>& failed, size_t count, PackPlan& plan) {
 
 PackTask make_task(const FitRequest& request, const MapSize& map) {
     const int cell = 1 << request.mips;
-    PackTask task{request, {}, {}, map, cell, std::max(1, (request.gutter + cell - 1) / cell)};
-    task.axes.resize(request.charts.size());
-    task.outlines.resize(request.charts.size());
-    parallel_for(request.charts.size(), 64, [&](size_t i) {
-        task.outlines[i] = chart_outline(request.charts[i]);
-        task.axes[i] = pack_axes(request.charts[i], map);
+    if (map.width % cell != 0 || map.height % cell != 0)
+        throw Error(ErrorKind::usage, "gutters that survive " + std::to_string(request.mips) +
+                                          " mip levels need a map whose sides are multiples of " +
+                                          std::to_string(cell) + " texels, not " + std::to_string(map.width) + " x " +
+                                          std::to_string(map.height));
+    const size_t count = request.charts.size();
+    PackTask task{request, std::vector<Outline>(count), std::vector<std::vector<Vec2>>(count), map, cell,
+                  std::max(1, (request.gutter + cell - 1) / cell)};
+    double area = 0;
+    for (size_t i = 0; i < count; ++i) area += request.charts[i].area * request.factors[i] * request.factors[i];
+    constexpr size_t grain = 64;
+    parallel_for(count, grain, [&](size_t i) {
+        const FlatChart& chart = request.charts[i];
+        task.outlines[i] = chart_outline(chart);
+        const double longer = request.factors[i] * std::max(chart.extent.x, chart.extent.y);
+        if (!chart.is_sliver && longer > least_turned * std::sqrt(area))
+            task.axes[i] = pack_axes(chart, task.outlines[i], map);
+        else
+            task.axes[i] = {Vec2(1, 0)};
     });
     return task;
+}
+
+std::vector<PackPlan> first_plans() {
+    return {{PackOrder::longer_side, PackRule::centre}, {PackOrder::box, PackRule::centre}};
 }
 
 bool could_fit(const PackTask& task, double density) {
@@ -142,7 +168,8 @@ Attempt attempt(const PackTask& task, double density, std::vector<PackPlan>& pla
     return result;
 }
 
-std::optional<Layout> try_once(const PackTask& task, double density, std::vector<PackPlan> plans) {
+std::optional<Layout> try_once(const PackTask& task, double density) {
+    std::vector<PackPlan> plans = first_plans();
     return attempt(task, density, plans, false).layout;
 }
 

@@ -19,9 +19,9 @@ struct PackTask {
     int gutter = 2;  ///< cells
 };
 
-/// With mips, everything counts in texels of the last level, which has to keep one of them between two charts: no
-/// chart then shares a texel with another on any level, and more room is lost neither to a gutter that has to hold
-/// for every alignment (2^(mips + 1) - 1 texels) nor to the search.
+/// With mips, masks count texels of the last level, and charts lie at multiples of them: one of them free between two
+/// charts is then both enough and needed for no texel of any level to be touched by two charts. (Where charts lie
+/// anywhere, it takes 2^(mips + 1) - 1 texels of gutter.) Throws Error(usage) when the map is no multiple of 2^mips.
 PackTask make_task(const FitRequest& request, const MapSize& map);
 
 /// Whether a count of texels allows the charts to fit.
@@ -38,7 +38,10 @@ struct Attempt {
 /// order, for the next attempt.
 Attempt attempt(const PackTask& task, double density, std::vector<PackPlan>& plans, bool is_learning);
 
-/// The same with plans that are not needed any more, without learning.
-std::optional<Layout> try_once(const PackTask& task, double density, std::vector<PackPlan> plans);
+/// The same by the plans of first_plans, without learning.
+std::optional<Layout> try_once(const PackTask& task, double density);
+
+/// The orders that win most often.
+std::vector<PackPlan> first_plans();
 
 }  // namespace surimi

@@ -8,9 +8,9 @@
 
 namespace surimi {
 
-/// Unit vectors of the chart's plane that may come to lie along x, the best first: the box that the chart stands in,
-/// other boxes of little more area (standing on edges of its hull), and the direction in which it needs the least of
-/// the map (a long strip: along the diagonal). Turns by right angles are not told apart.
-std::vector<Vec2> pack_axes(const FlatChart& chart, const MapSize& map);
+/// Unit vectors of the chart's plane that may come to lie along x, up to three. The first is (1, 0): the box in which the
+/// chart stands. Then the direction in which it needs the smallest map of this form, where that is another one (a long
+/// strip: along the diagonal), and those of other tight boxes. Turns by right angles are not told apart.
+std::vector<Vec2> pack_axes(const FlatChart& chart, const Outline& outline, const MapSize& map);
 
 }  // namespace surimi

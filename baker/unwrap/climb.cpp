@@ -3,113 +3,104 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <cstdio>
 
 #include "runtime/base/error.h"
 
 namespace surimi {
-int env(const char* name, int otherwise);
-int env(const char* name, int otherwise) { const char* v = getenv(name); return v ? atoi(v) : otherwise; }
 namespace {
 
-constexpr size_t kept_successes = 3;
+constexpr double fall = 0.97;  ///< factor of the density until charts fit; the gap that it leaves is then halved
+constexpr double close = 1.003;
 constexpr double least_step = 1.002;
-constexpr double most_step = 1.03;
+constexpr double most_step = 1.02;
+constexpr size_t kept_successes = 3;
 
-void tell(const FitRequest& request, double fraction) {
-    if (request.progress.is_cancelled && request.progress.is_cancelled())
+/// A climb that goes on.
+struct Climber {
+    const PackTask& task;
+    std::vector<PackPlan> plans;
+    uint64_t most_work = 0;
+    uint64_t work = 0;
+    std::optional<Layout> best = {};
+    std::vector<PackPlan> successes = {};  ///< plans of the best few layouts, the best first, with their poses
+};
+
+bool try_density(Climber& climber, double density) {
+    const Progress& progress = climber.task.request.progress;
+    if (progress.is_cancelled && progress.is_cancelled())
         throw Error(ErrorKind::interrupted, "interrupted while packing");
-    if (request.progress.report) request.progress.report("packing", fraction);
+    const double done = static_cast<double>(climber.work) / static_cast<double>(climber.most_work + 1);
+    if (progress.report) progress.report("packing", std::min(1.0, done));
+
+    // Learning takes longer, since a failed attempt then goes on to its end.
+    Attempt next = attempt(climber.task, density, climber.plans, climber.work < climber.most_work);
+    // At least a little, so that small work comes to an end.
+    climber.work += std::max<uint64_t>(next.work, climber.most_work / 500);
+    if (!next.layout) return false;
+    PackPlan plan = climber.plans[next.winner];
+    plan.poses = next.layout->poses;
+    climber.successes.insert(climber.successes.begin(), std::move(plan));
+    climber.successes.resize(std::min(climber.successes.size(), kept_successes));
+    climber.best = std::move(next.layout);
+    return true;
 }
 
-void remember(Attempt& attempt, const std::vector<PackPlan>& plans, Climb& climb) {
-    PackPlan plan = plans[attempt.winner];
-    plan.poses = attempt.layout->poses;
-    climb.successes.insert(climb.successes.begin(), std::move(plan));
-    if (climb.successes.size() > kept_successes) climb.successes.pop_back();
-    climb.best = std::move(attempt.layout);
+void run(Climber& climber, double start, double lowest) {
+    double high = start / fall;
+    double density = start;
+    while (!try_density(climber, density)) {
+        if (density <= lowest) return;
+        high = density;
+        density = std::max(lowest, density * fall);
+    }
+    while (high > density * close) {
+        const double middle = std::sqrt(density * high);
+        (try_density(climber, middle) ? density : high) = middle;
+    }
+    double step = least_step;
+    while (climber.work < climber.most_work) {
+        const bool has_risen = try_density(climber, climber.best->texels_per_metre * step);
+        step = has_risen ? std::min(most_step, 1 + 2 * (step - 1)) : std::max(least_step, 1 + 0.5 * (step - 1));
+    }
 }
 
-/// How many times smaller the copy is: its charts still have a few dozen texels across on average.
+/// How many times smaller the copy of a large map is: charts keep a few dozen texels across on average.
 int coarseness(const PackTask& task) {
+    constexpr int least_side = 768;
+    constexpr double least_across = 20;
     const double texels = static_cast<double>(task.map.width) * task.map.height;
     const double across = std::sqrt(texels / static_cast<double>(task.request.charts.size()));
-    const double least_across = env("ACROSS", 20);
-    constexpr int least_side = 128;
+    const int side = std::min(task.map.width, task.map.height);
     int factor = 1;
-    while (across / (2 * factor) >= least_across && std::min(task.map.width, task.map.height) / (2 * factor) >= least_side)
-        factor *= 2;
+    while (across / (2 * factor) >= least_across && side / (2 * factor) >= least_side) factor *= 2;
     return factor;
 }
 
-std::vector<PackPlan> first_plans(size_t charts) {
-    std::vector<PackPlan> plans;
-    const int bits = charts > 500 ? env("PLANSB", 5) : env("PLANS", 255);
-    int i = 0;
-    for (PackRule rule : {PackRule::centre, PackRule::upper_end})
-        for (const PackOrder order : {PackOrder::longer_side, PackOrder::half_perimeter, PackOrder::box, PackOrder::texels})
-            if (bits >> i++ & 1) plans.push_back({order, rule, {}, {}});
-    return plans;
+PackTask coarse_copy(const PackTask& task, int factor) {
+    PackTask copy = task;
+    copy.map = {task.map.width / factor, task.map.height / factor};
+    copy.cell = std::max(1, task.cell / factor);
+    copy.gutter = std::max(1, (task.gutter * task.cell + factor / 2) / (factor * copy.cell));
+    return copy;
 }
 
 }  // namespace
 
-Climb climb(const PackTask& task, std::vector<PackPlan> plans, const ClimbLimits& limits) {
-    Climb result;
-    uint64_t work = 0;
-    int attempts = 0;
-    for (double density = limits.start; !result.best && density > limits.lowest; density *= limits.fall) {
-        tell(task.request, 0);
-        Attempt first = attempt(task, density, plans, false);
-        work += first.work; ++attempts;
-        if (first.layout) remember(first, plans, result);
-        if (!first.layout && density * limits.fall <= limits.lowest) {
-            first = attempt(task, limits.lowest, plans, false);
-            if (first.layout) remember(first, plans, result);
-            return result;
-        }
-    }
-    double step = 1 + 0.5 * (1 / limits.fall - 1);
-    for (int failures = 0; work < limits.most_work || failures < 2;) {
-        tell(task.request, std::min(1.0, static_cast<double>(work) / static_cast<double>(limits.most_work + 1)));
-        Attempt next = attempt(task, result.best->texels_per_metre * step, plans, true);
-        work += std::max<uint64_t>(next.work, limits.most_work / 2000); ++attempts;
-        if (next.layout) {
-            remember(next, plans, result);
-            step = std::min(most_step, 1 + 1.5 * (step - 1));
-            failures = 0;
-        } else {
-            failures += step == least_step;
-            step = std::max(least_step, 1 + 0.5 * (step - 1));
-        }
-    }
-    if (env("SHOW", 0)) fprintf(stderr, "map %d: density %.5g attempts %d work %.1f M\n", task.map.width, result.best->texels_per_metre, attempts, static_cast<double>(work) * 1e-6);
-    return result;
-}
-
-Climb climb_coarse_to_fine(const PackTask& task, const ClimbLimits& limits) {
+std::optional<Layout> climb(const PackTask& task, const ClimbLimits& limits) {
     const int factor = coarseness(task);
-    std::vector<PackPlan> plans = first_plans(task.request.charts.size());
-    if (factor == 1) return climb(task, std::move(plans), limits);
-    PackTask coarse = task;
-    coarse.map = {task.map.width / factor, task.map.height / factor};
-    coarse.cell = std::max(1, task.cell / factor);
-    coarse.gutter = std::max(1, (task.gutter * task.cell + factor / 2) / (factor * coarse.cell));
-    ClimbLimits coarse_limits = limits;
-    coarse_limits.start /= factor;
-    coarse_limits.lowest /= factor;
-    const Climb learned = climb(coarse, std::move(plans), coarse_limits);
-    if (!learned.best) return climb(task, first_plans(task.request.charts.size()), limits);
-    plans = learned.successes;
-    if (env("FREE", 0)) {
-    plans.push_back(plans[0]);
-    plans.back().poses.clear();
+    if (factor > 1) {
+        const PackTask coarse = coarse_copy(task, factor);
+        Climber scout{coarse, first_plans(), limits.most_work};
+        run(scout, limits.start / factor, limits.lowest / factor);
+        if (scout.best) {
+            Climber climber{task, scout.successes, limits.most_work};
+            run(climber, scout.best->texels_per_metre * factor * close, limits.lowest);
+            if (climber.best) return std::move(climber.best);
+        }
     }
-    ClimbLimits fine = limits;
-    fine.start = learned.best->texels_per_metre * factor;
-    fine.fall = 0.99;
-    return climb(task, std::move(plans), fine);
+    Climber climber{task, first_plans(), limits.most_work};
+    run(climber, limits.start, limits.lowest);
+    return std::move(climber.best);
 }
 
 }  // namespace surimi

@@ -2,29 +2,22 @@
 // Higher and higher densities, by plans that learn from their failures.
 #pragma once
 
-#include <vector>
+#include <optional>
 
 #include "baker/unwrap/attempt.h"
 
 namespace surimi {
 
-struct Climb {
-    std::optional<Layout> best;       ///< nothing when not even the lowest density fits
-    std::vector<PackPlan> successes;  ///< plans of the best few layouts, the best first, with their poses
-};
-
 struct ClimbLimits {
     double start = 0;        ///< density of the first attempt
-    double lowest = 0;       ///< below it nothing changes any more
-    double fall = 0.97;      ///< factor of density until an attempt succeeds
+    double lowest = 0;       ///< of the last one, when all others fail
     uint64_t most_work = 0;  ///< Occupancy::work, about nanoseconds, before it settles
 };
 
-/// Goes down from the start until the charts fit, then up in steps that grow with success and shrink with failure to
-/// 0.2 %, until the work is used up.
-Climb climb(const PackTask& task, std::vector<PackPlan> plans, const ClimbLimits& limits);
-
-/// Finds good plans on a smaller copy of the map where charts are large enough for that, then climbs on the map itself.
-Climb climb_coarse_to_fine(const PackTask& task, const ClimbLimits& limits);
+/// The densest layout that is found, to within 0.3 % of what the same plans can do; nothing when the charts do not even
+/// fit at the lowest density. Goes down from the start until they fit, halves the gap to what failed, and spends the
+/// work that is left on small steps up, for which charts that found no place move forward in their plan's order. Maps
+/// above 1024 texels are climbed on a smaller copy first, from which the orders and the poses are taken.
+std::optional<Layout> climb(const PackTask& task, const ClimbLimits& limits);
 
 }  // namespace surimi

@@ -2,7 +2,6 @@
 #include "baker/unwrap/fit.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -16,7 +15,8 @@ namespace {
 constexpr int largest_map = 16384;
 /// Below this share of the highest conceivable density all charts are as small as they get.
 constexpr double no_density_share = 1e-7;
-const double most_work = 1e6 * (getenv("WORK") ? atoi(getenv("WORK")) : 100);
+/// Of looking for better ways to pack, on each of at most two sizes of the map: a tenth of a second, about.
+constexpr double most_work = 1e8;
 
 void tell(const FitRequest& request, double fraction) {
     if (request.progress.is_cancelled && request.progress.is_cancelled())
@@ -24,15 +24,10 @@ void tell(const FitRequest& request, double fraction) {
     if (request.progress.report) request.progress.report("packing", fraction);
 }
 
-/// The orders and rules that win most often.
-std::optional<Layout> try_to_pack(const PackTask& task, double density) {
-    return try_once(task, density, {{PackOrder::longer_side, PackRule::centre}, {PackOrder::box, PackRule::centre},
-                                    {PackOrder::half_perimeter, PackRule::upper_end}});
-}
-
+/// The better one of two densities that fits.
 std::optional<Layout> try_both(const PackTask& task, double low, double high) {
-    std::optional<Layout> better = try_to_pack(task, high);
-    return better ? std::move(better) : try_to_pack(task, low);
+    std::optional<Layout> better = try_once(task, high);
+    return better ? std::move(better) : try_once(task, low);
 }
 
 /// A density that would make the charts as large as the map.
@@ -44,32 +39,42 @@ double highest_density(const FitRequest& request, const MapSize& map) {
     return area > 0 ? std::sqrt(texels / area) : 1.0;  // nothing but slivers: any density will do
 }
 
-/// Smallest multiple of 4 for which `fits` is true, between sizes known to fail and to fit. The caller has
+/// Sizes that are proposed are multiples of this.
+int size_unit(const FitRequest& request) {
+    return std::max(4, 1 << request.mips);
+}
+
+/// Smallest multiple of `unit` for which `fits` is true, between sizes known to fail and to fit. The caller has
 /// seen that it fits at `high`.
 template <class Fits>
-int smallest_size(int low, int high, const Fits& fits) {
-    while (high - low > 4) {
-        const int middle = (low + high) / 8 * 4;
+int smallest_size(int low, int high, int unit, const Fits& fits) {
+    while (high - low > unit) {
+        const int middle = (low + high) / (2 * unit) * unit;
         (fits(middle) ? high : low) = middle;
     }
     return high;
 }
 
-[[noreturn]] void refuse(const FitRequest& request, const MapSize& map) {
-    const std::string charts = std::to_string(request.charts.size()) + " charts";
-    const std::string asked = std::to_string(map.width) + " x " + std::to_string(map.height);
+[[noreturn]] void refuse(const PackTask& refused) {
+    const FitRequest& request = refused.request;
+    std::string charts = std::to_string(request.charts.size()) + " charts";
+    if (request.mips > 0) charts += " with gutters on " + std::to_string(request.mips) + " mip levels";
+    const std::string asked = std::to_string(refused.map.width) + " x " + std::to_string(refused.map.height);
+    PackTask task = refused;
     const auto fits = [&](int size) {
-        const MapSize square{size, size};
-        return try_to_pack(make_task(request, square), highest_density(request, square) * no_density_share).has_value();
+        task.map = {size, size};
+        return try_once(task, highest_density(request, task.map) * no_density_share).has_value();
     };
-    int high = 4;
+    const int unit = size_unit(request);
+    int high = unit;
     while (high < largest_map && !fits(high)) high *= 2;
     if (high == largest_map && !fits(high))
-        throw Error(ErrorKind::usage, charts + " do not fit any map up to 16384 x 16384; split the scene");
-    const std::string size = std::to_string(smallest_size(high / 2, high, fits));
+        throw Error(ErrorKind::usage, charts + " do not fit any map up to 16384 x 16384; split the scene" +
+                                          (request.mips > 0 ? ", or ask for fewer mip levels" : ""));
+    const std::string size = std::to_string(high == unit ? unit : smallest_size(high / 2, high, unit, fits));
     throw Error(ErrorKind::usage, "a map of " + asked + " texels is too small for " + charts +
-                                      ", even at one texel each; " + "the smallest that can hold them is --size " +
-                                      size + "x" + size);
+                                      ", even at one texel each; the smallest that can hold them is --size " + size +
+                                      "x" + size);
 }
 
 /// Largest density, to about 2 %, that a count of texels does not rule out.
@@ -97,10 +102,10 @@ Layout fit_to_map(const FitRequest& request, const MapSize& map) {
     limits.start = promising_density(task);
     limits.lowest = highest_density(request, map) * no_density_share;
     limits.most_work = static_cast<uint64_t>(most_work * request.effort);
-    Climb result = climb_coarse_to_fine(task, limits);
-    if (!result.best) refuse(request, map);
+    std::optional<Layout> best = climb(task, limits);
+    if (!best) refuse(task);
     tell(request, 1);
-    return std::move(*result.best);
+    return std::move(*best);
 }
 
 Layout fit_near(const FitRequest& request, const MapSize& map, double known) {
@@ -117,12 +122,19 @@ Layout fit_near(const FitRequest& request, const MapSize& map, double known) {
 
 Layout fit_to_density(const FitRequest& request, double texels_per_metre) {
     tell(request, 0);
+    const int unit = size_unit(request);
+    PackTask task = make_task(request, {largest_map, largest_map});
+    const auto could_fit_at = [&](int size) {
+        task.map = {size, size};
+        return could_fit(task, texels_per_metre);
+    };
     const auto layout_of = [&](int size) {
         tell(request, 0.5);
-        return try_to_pack(make_task(request, {size, size}), texels_per_metre);
+        task.map = {size, size};
+        return try_once(task, texels_per_metre);
     };
-    int high = 4;
-    while (high < largest_map && !could_fit(make_task(request, {high, high}), texels_per_metre)) high *= 2;
+    int high = unit;
+    while (high < largest_map && !could_fit_at(high)) high *= 2;
     std::optional<Layout> best = layout_of(high);
     while (!best && high < largest_map) {
         high *= 2;
@@ -134,12 +146,13 @@ Layout fit_to_density(const FitRequest& request, double texels_per_metre) {
                                           " texels per metre do not fit a map of 16384 x 16384 texels; about " +
                                           std::to_string(most) + " may");
     }
-    smallest_size(high / 2, high, [&](int size) {
+    const auto fits = [&](int size) {
         std::optional<Layout> smaller = layout_of(size);
         if (!smaller) return false;
         best = std::move(smaller);
         return true;
-    });
+    };
+    if (high > unit) smallest_size(high / 2, high, unit, fits);
     tell(request, 1);
     return std::move(*best);
 }

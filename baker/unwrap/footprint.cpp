@@ -13,11 +13,6 @@ constexpr double least_extent = 0.5;
 constexpr double sliver_low = 0.2;
 constexpr double sliver_high = 0.8;
 
-/// Coordinates of a point in a frame whose x is `axis`, of unit length.
-Vec2 to_axis(const Vec2& p, const Vec2& axis) {
-    return {glm::dot(p, axis), axis.x * p.y - axis.y * p.x};
-}
-
 bool is_same(const Mask& a, const Mask& b) {
     return a.width == b.width && a.height == b.height && a.runs == b.runs;
 }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "baker/unwrap/flatten.h"
-#include "baker/unwrap/raster.h"
+#include "baker/unwrap/mask.h"
 
 namespace surimi {
 
@@ -32,6 +32,11 @@ struct TexelChart {
     int height = 1;
     double texels_per_metre = 0;  ///< after widening charts that would be too small for float; 0 for slivers
 };
+
+/// Coordinates of a point in a frame whose x runs along `axis`, of unit length.
+inline Vec2 to_axis(const Vec2& p, const Vec2& axis) {
+    return {glm::dot(p, axis), axis.x * p.y - axis.y * p.x};
+}
 
 /// `texels_per_metre` counts along the surface in space; `axis` (a unit vector) is the direction of the chart that
 /// comes to lie along x. The box is a multiple of `cell` texels in both directions. Charts thinner than a fraction of a texel are widened: that costs no texel and keeps float

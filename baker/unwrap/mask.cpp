@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "baker/unwrap/raster.h"
+#include "baker/unwrap/mask.h"
 
 #include <algorithm>
 #include <array>
