@@ -112,7 +112,11 @@ PackTask make_task(const FitRequest& request, const MapSize& map) {
                                           std::to_string(cell) + " texels, not " + std::to_string(map.width) + " x " +
                                           std::to_string(map.height));
     const size_t count = request.charts.size();
-    PackTask task{request, std::vector<Outline>(count), std::vector<std::vector<Vec2>>(count), map, cell,
+    PackTask task{request,
+                  std::vector<Outline>(count),
+                  std::vector<std::vector<Vec2>>(count),
+                  map,
+                  cell,
                   std::max(1, (request.gutter + cell - 1) / cell)};
     double area = 0;
     for (size_t i = 0; i < count; ++i) area += request.charts[i].area * request.factors[i] * request.factors[i];

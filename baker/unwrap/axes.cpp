@@ -8,7 +8,7 @@ namespace surimi {
 namespace {
 
 constexpr size_t most_axes = 3;  ///< more cost time in proportion, and gained nothing
-constexpr size_t angles = 90;  ///< of a quarter turn that are tried
+constexpr size_t angles = 90;    ///< of a quarter turn that are tried
 /// Axes that are nearer to each other than this (radians) lay a chart in much the same way.
 constexpr double least_difference = 0.06;
 /// Boxes larger than the best by more than this leave too much empty around the chart.

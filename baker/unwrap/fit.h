@@ -16,7 +16,7 @@ struct FitRequest {
     int gutter = 2;
     const Progress& progress;
     int mips = 0;       ///< levels on which at least a texel is left between two charts
-    double effort = 1;  ///< how long better ways to pack are looked for, in tenths of a second, about
+    double effort = 1;  ///< factor of the time that better ways to pack are looked for
 };
 
 struct Layout {

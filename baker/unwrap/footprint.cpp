@@ -24,8 +24,7 @@ double coordinate_slack(const MapSize& map) {
     return 1e-6 + 10 * uv_step * std::max(map.width, map.height);
 }
 
-TexelChart to_texels(const FlatChart& chart, double texels_per_metre, const MapSize& map, const Vec2& axis,
-                     int cell) {
+TexelChart to_texels(const FlatChart& chart, double texels_per_metre, const MapSize& map, const Vec2& axis, int cell) {
     TexelChart shape;
     if (chart.is_sliver) {
         shape.width = shape.height = cell;
@@ -93,7 +92,7 @@ Outline chart_outline(const FlatChart& chart) {
         if ((end - begin) % 2 != 0) outline.push_back(*begin);
         begin = end;
     }
-    return outline;
+    return outline.empty() ? edges : outline;
 }
 
 std::vector<Mask> make_masks(const Outline& outline, const TexelChart& shape, const MapSize& map, int cell) {

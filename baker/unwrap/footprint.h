@@ -39,8 +39,8 @@ inline Vec2 to_axis(const Vec2& p, const Vec2& axis) {
 }
 
 /// `texels_per_metre` counts along the surface in space; `axis` (a unit vector) is the direction of the chart that
-/// comes to lie along x. The box is a multiple of `cell` texels in both directions. Charts thinner than a fraction of a texel are widened: that costs no texel and keeps float
-/// rounding from collapsing them.
+/// comes to lie along x. The box is a multiple of `cell` texels in both directions. Charts thinner than a fraction of a
+/// texel are widened: that costs no texel and keeps float rounding from collapsing them.
 TexelChart to_texels(const FlatChart& chart, double texels_per_metre, const MapSize& map, const Vec2& axis = {1, 0},
                      int cell = 1);
 
@@ -51,7 +51,8 @@ inline constexpr int mirrored = 4;
 /// angles.
 Vec2 turned(const Vec2& p, const TexelChart& chart, int turns);
 
-/// The edges of a chart with a triangle on one side only, as indices into its points.
+/// The edges of a chart with a triangle on one side only, as indices into its points. All edges where there is none
+/// such: triangles that lie on each other, which round_chart finds.
 using Outline = std::vector<std::array<uint32_t, 2>>;
 Outline chart_outline(const FlatChart& chart);
 

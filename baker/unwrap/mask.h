@@ -41,8 +41,8 @@ class Raster {
     /// All texels untouched.
     Raster(int width, int height);
 
-    /// Touches the texels whose open square, grown by `slack` to all sides, meets the edge, and counts it as part of the
-    /// outline.
+    /// Touches the texels whose open square, grown by `slack` to all sides, meets the edge, and counts it as part of
+    /// the outline.
     void add_edge(const Vec2& a, const Vec2& b, double slack);
 
     /// Touches the texels whose centre lies within the closed outline of all edges so far (an odd number of times).

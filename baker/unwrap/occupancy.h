@@ -47,7 +47,7 @@ class Occupancy {
     uint64_t work() const { return work_; }
 
     static constexpr int square_levels = Mask::most_level + 1;
-    static constexpr int run_levels = 9;     ///< runs up to 256 texels in one step; longer ones in several
+    static constexpr int run_levels = 9;  ///< runs up to 256 texels in one step; longer ones in several
 
   private:
     using Word = uint64_t;

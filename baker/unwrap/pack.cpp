@@ -27,7 +27,8 @@ class Packer {
     bool place(uint32_t chart, Placement& result) {
         const MapSize& map = taken_.size();
         const std::vector<Mask>& masks = charts_.masks[chart];
-        // A chart of the same size failed on all rows below the last one's, and the map only fills up.
+        // A chart of the same size lies there, and the map only fills up: below it, one of the same form finds no
+        // place, and one of another form seldom. Looking costs three times the time for 0.3 % of density.
         const Mask& m = masks[0];
         int& hint = hint_[{std::max(m.width, m.height), std::min(m.width, m.height)}];
         const auto is_pose = [&](const Mask& mask) {
@@ -106,8 +107,7 @@ PackCharts prepare_charts(std::vector<std::vector<Mask>> masks) {
     return charts;
 }
 
-Packing pack(const PackCharts& charts, const MapSize& map, int gutter, const PackPlan& plan,
-             size_t most_failures) {
+Packing pack(const PackCharts& charts, const MapSize& map, int gutter, const PackPlan& plan, size_t most_failures) {
     Packer packer(charts, map, gutter, plan);
     Packing packing{std::vector<Placement>(charts.masks.size()), {}, 0};
     for (const uint32_t i : sort_charts(charts.masks, plan)) {
@@ -126,8 +126,8 @@ double least_texels(const std::vector<std::vector<Mask>>& charts, int gutter) {
     for (const auto& masks : charts) {
         double least = INFINITY;
         for (const Mask& m : masks)
-            least = std::min(least, static_cast<double>(m.texels) +
-                                        static_cast<double>(gutter) * (m.width + m.height + gutter));
+            least = std::min(
+                least, static_cast<double>(m.texels) + static_cast<double>(gutter) * (m.width + m.height + gutter));
         sum += least;
     }
     return sum;

@@ -41,7 +41,7 @@ struct Pose {
 struct PackPlan {
     PackOrder order = PackOrder::longer_side;
     PackRule rule = PackRule::upper_end;
-    std::vector<double> boosts = {};            ///< factors of the charts' sizes in the order; empty: all 1
+    std::vector<double> boosts = {};  ///< factors of the charts' sizes in the order; empty: all 1
     std::vector<Pose> poses = {};     ///< that each chart has to take, if it has a mask of it; empty: any
 };
 

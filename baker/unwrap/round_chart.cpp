@@ -20,10 +20,7 @@ constexpr double least_height = 0.25;
 class Repair {
   public:
     Repair(const std::vector<std::array<uint32_t, 3>>& triangles, std::vector<Vec2>& points, const MapSize& map)
-        : triangles_(triangles),
-          points_(points),
-          start_(points),
-          texels_(map.width * uv_step, map.height * uv_step) {}
+        : triangles_(triangles), points_(points), start_(points), texels_(map.width * uv_step, map.height * uv_step) {}
 
     FlatTriangle triangle(uint32_t t) const {
         const auto& c = triangles_[t];

@@ -98,8 +98,13 @@ bool replace_failed(Work& work, const std::vector<RoundedChart>& rounded, int ro
     return true;
 }
 
+double packing_effort(UvQuality quality) {
+    return quality == UvQuality::draft ? 0.2 : quality == UvQuality::medium ? 1 : 5;
+}
+
 Layout fit(const Work& work, const UnwrapSettings& settings, const Progress& progress, double known) {
-    const FitRequest request{work.charts, work.chart_factors, settings.gutter, progress};
+    const FitRequest request{work.charts, work.chart_factors, settings.gutter,
+                             progress,    settings.mips,      packing_effort(settings.quality)};
     if (settings.texels_per_metre > 0) return fit_to_density(request, settings.texels_per_metre);
     const MapSize map{settings.width, settings.height};
     return known > 0 ? fit_near(request, map, known) : fit_to_map(request, map);

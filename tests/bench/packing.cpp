@@ -30,8 +30,8 @@ struct Known {
     std::vector<double> factors;
 };
 
-void add_triangle(const Atlas& atlas, size_t surface, uint32_t triangle, std::map<std::pair<float, float>, uint32_t>& ids,
-                  FlatChart& chart) {
+void add_triangle(const Atlas& atlas, size_t surface, uint32_t triangle,
+                  std::map<std::pair<float, float>, uint32_t>& ids, FlatChart& chart) {
     const double density = atlas.charts[atlas.surfaces[surface].chart[triangle]].texels_per_metre;
     std::array<uint32_t, 3> corners{};
     for (size_t k = 0; k < 3; ++k) {
@@ -40,7 +40,8 @@ void add_triangle(const Atlas& atlas, size_t surface, uint32_t triangle, std::ma
         if (entry.second) chart.points.push_back(Vec2(uv) * Vec2(atlas.width, atlas.height) / density);
         corners[k] = entry.first->second;
     }
-    const double area = 0.5 * doubled_area(chart.points[corners[0]], chart.points[corners[1]], chart.points[corners[2]]);
+    const double area =
+        0.5 * doubled_area(chart.points[corners[0]], chart.points[corners[1]], chart.points[corners[2]]);
     if (area < 0) std::swap(corners[1], corners[2]);
     chart.flat_area += std::abs(area);
     chart.faces.push_back(triangle);
@@ -51,7 +52,8 @@ Known charts_of(const Atlas& atlas) {
     Known known{std::vector<FlatChart>(atlas.charts.size()), {}};
     for (size_t s = 0; s < atlas.surfaces.size(); ++s) {
         std::map<uint32_t, std::vector<uint32_t>> triangles;
-        for (uint32_t t = 0; t < atlas.surfaces[s].chart.size(); ++t) triangles[atlas.surfaces[s].chart[t]].push_back(t);
+        for (uint32_t t = 0; t < atlas.surfaces[s].chart.size(); ++t)
+            triangles[atlas.surfaces[s].chart[t]].push_back(t);
         for (const auto& [i, list] : triangles) {
             if (!(atlas.charts[i].texels_per_metre > 0)) {
                 known.charts[i] = make_sliver(list[0]);
@@ -120,10 +122,14 @@ int run(int argc, char** argv) {
         else
             files.emplace_back(argv[i]);
     }
-    std::printf("| charts of, at %d x %d, gutter %d | charts | share of the map | with touched texels and gutters | texels per metre | CPU s | s |\n"
-                "|---|--:|--:|--:|--:|--:|--:|\n", job.map.width, job.map.height, job.gutter);
+    std::printf(
+        "| charts of, at %d x %d, gutter %d | charts | share of the map | with touched texels and gutters | texels per "
+        "metre | CPU s | s |\n"
+        "|---|--:|--:|--:|--:|--:|--:|\n",
+        job.map.width, job.map.height, job.gutter);
     for (const test::ChartSet& set : test::chart_sets())
-        if (set.name.find(only) != std::string::npos) measure(set.name, {set.charts, std::vector<double>(set.charts.size(), 1)}, job);
+        if (set.name.find(only) != std::string::npos)
+            measure(set.name, {set.charts, std::vector<double>(set.charts.size(), 1)}, job);
     for (const std::string& file : files) {
         UnwrapSettings settings;
         settings.uv = UvSource::automatic;

@@ -236,6 +236,7 @@ struct Judge {
     const Atlas& atlas;
     std::vector<Triangle2> texels;  ///< triangles with an area in space, in texels
     std::vector<uint32_t> charts;   ///< of those
+    std::vector<int> is_mirrored;   ///< of each chart; -1 until known
 
     void collect() {
         ASSERT_EQ(atlas.surfaces.size(), scene.surfaces.size());
@@ -260,9 +261,13 @@ struct Judge {
         if (is_degenerate(scene.surfaces[s], t)) return;
         const double longest = std::max(glm::length(flat[1] - flat[0]),
                                         std::max(glm::length(flat[2] - flat[1]), glm::length(flat[0] - flat[2])));
-        // Surimi does not mirror; so "against its chart" is "negative".
-        EXPECT_GT(0.5 * cross2(flat[0], flat[1], flat[2]), 1e-9 * longest * longest)
+        // A chart may be mirrored as a whole: its first triangle tells.
+        const double area = 0.5 * cross2(flat[0], flat[1], flat[2]);
+        is_mirrored.resize(atlas.charts.size(), -1);
+        if (is_mirrored[chart] < 0) is_mirrored[chart] = area < 0 ? 1 : 0;
+        EXPECT_GT(is_mirrored[chart] > 0 ? -area : area, 1e-9 * longest * longest)
             << "flipped or collapsed " << s << "/" << t;
+        if (area < 0) std::swap(flat[1], flat[2]);
         texels.push_back(flat);
         charts.push_back(chart);
     }
@@ -327,7 +332,7 @@ Atlas expect_valid(const Scene& scene, const UnwrapSettings& settings) {
         EXPECT_EQ(atlas.width, settings.width);
         EXPECT_EQ(atlas.height, settings.height);
     }
-    Judge judge{scene, atlas, {}, {}};
+    Judge judge{scene, atlas, {}, {}, {}};
     judge.collect();
     EXPECT_FALSE(judge.texels.empty());
     judge.expect_no_overlaps();

@@ -13,7 +13,9 @@ namespace {
 class Random {
   public:
     explicit Random(uint32_t seed) : bits_(seed) {}
-    double between(double low, double high) { return low + (high - low) * (static_cast<double>(bits_()) / 4294967296.0); }
+    double between(double low, double high) {
+        return low + (high - low) * (static_cast<double>(bits_()) / 4294967296.0);
+    }
     /// Many small and few large ones.
     double size(double least, double most) { return least * std::pow(most / least, std::pow(between(0, 1), 2)); }
 
