@@ -10,7 +10,7 @@ namespace surimi {
 namespace {
 
 constexpr double fall = 0.97;  ///< factor of the density until charts fit; the gap that it leaves is then halved
-constexpr double close = 1.003;
+constexpr double close = 1.002;
 constexpr double least_step = 1.002;
 constexpr double most_step = 1.02;
 constexpr size_t kept_successes = 3;
@@ -45,20 +45,20 @@ bool try_density(Climber& climber, double density) {
     return true;
 }
 
-void run(Climber& climber, double start, double lowest) {
-    double high = start / fall;
-    double density = start;
+void run(Climber& climber, const ClimbLimits& limits) {
+    double high = std::min(limits.start / fall, limits.highest);
+    double density = limits.start;
     while (!try_density(climber, density)) {
-        if (density <= lowest) return;
+        if (density <= limits.lowest) return;
         high = density;
-        density = std::max(lowest, density * fall);
+        density = std::max(limits.lowest, density * fall);
     }
     while (high > density * close) {
         const double middle = std::sqrt(density * high);
         (try_density(climber, middle) ? density : high) = middle;
     }
     double step = least_step;
-    while (climber.work < climber.most_work) {
+    while (climber.work < climber.most_work && climber.best->texels_per_metre * step <= limits.highest) {
         const bool has_risen = try_density(climber, climber.best->texels_per_metre * step);
         step = has_risen ? std::min(most_step, 1 + 2 * (step - 1)) : std::max(least_step, 1 + 0.5 * (step - 1));
     }
@@ -91,15 +91,17 @@ std::optional<Layout> climb(const PackTask& task, const ClimbLimits& limits) {
     if (factor > 1) {
         const PackTask coarse = coarse_copy(task, factor);
         Climber scout{coarse, first_plans(), limits.most_work};
-        run(scout, limits.start / factor, limits.lowest / factor);
+        run(scout, {limits.start / factor, limits.lowest / factor, limits.highest / factor, limits.most_work});
         if (scout.best) {
+            ClimbLimits fine = limits;
+            fine.start = std::min(limits.highest, scout.best->texels_per_metre * factor * close);
             Climber climber{task, scout.successes, limits.most_work};
-            run(climber, scout.best->texels_per_metre * factor * close, limits.lowest);
+            run(climber, fine);
             if (climber.best) return std::move(climber.best);
         }
     }
     Climber climber{task, first_plans(), limits.most_work};
-    run(climber, limits.start, limits.lowest);
+    run(climber, limits);
     return std::move(climber.best);
 }
 

@@ -2,6 +2,7 @@
 // Higher and higher densities, by plans that learn from their failures.
 #pragma once
 
+#include <cmath>
 #include <optional>
 
 #include "baker/unwrap/attempt.h"
@@ -9,9 +10,10 @@
 namespace surimi {
 
 struct ClimbLimits {
-    double start = 0;        ///< density of the first attempt
-    double lowest = 0;       ///< of the last one, when all others fail
-    uint64_t most_work = 0;  ///< Occupancy::work, about nanoseconds, before it settles
+    double start = 0;           ///< density of the first attempt
+    double lowest = 0;          ///< of the last one, when all others fail
+    double highest = INFINITY;  ///< none is tried above it
+    uint64_t most_work = 0;     ///< Occupancy::work, about nanoseconds, before it settles
 };
 
 /// The densest layout that is found, to within 0.3 % of what the same plans can do; nothing when the charts do not even

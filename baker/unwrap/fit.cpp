@@ -17,18 +17,12 @@ constexpr int largest_map = 16384;
 constexpr double no_density_share = 1e-7;
 /// Spent on looking for better ways to pack, for each of at most two sizes of the map: 0.3 s of one core, about. Twice
 /// of it gains 0.5 %, more nothing.
-constexpr double most_work = 3e8;
+constexpr double most_work = 4e8;
 
 void tell(const FitRequest& request, double fraction) {
     if (request.progress.is_cancelled && request.progress.is_cancelled())
         throw Error(ErrorKind::interrupted, "interrupted while packing");
     if (request.progress.report) request.progress.report("packing", fraction);
-}
-
-/// The better one of two densities that fits.
-std::optional<Layout> try_both(const PackTask& task, double low, double high) {
-    std::optional<Layout> better = try_once(task, high);
-    return better ? std::move(better) : try_once(task, low);
 }
 
 /// A density that would make the charts as large as the map.
@@ -110,15 +104,16 @@ Layout fit_to_map(const FitRequest& request, const MapSize& map) {
 }
 
 Layout fit_near(const FitRequest& request, const MapSize& map, double known) {
+    tell(request, 0);
     const PackTask task = make_task(request, map);
-    double density = known;
-    for (double step = 0.998; density > 0.8 * known; step *= step * step) {
-        tell(request, 1);
-        std::optional<Layout> layout = try_both(task, density * step, density);
-        if (layout) return std::move(*layout);
-        density *= step * step;
-    }
-    return fit_to_map(request, map);
+    ClimbLimits limits;
+    limits.start = limits.highest = known;
+    limits.lowest = std::min(known, highest_density(request, map) * no_density_share);
+    limits.most_work = static_cast<uint64_t>(most_work * request.effort);
+    std::optional<Layout> best = climb(task, limits);
+    if (!best) refuse(task);
+    tell(request, 1);
+    return std::move(*best);
 }
 
 Layout fit_to_density(const FitRequest& request, double texels_per_metre) {

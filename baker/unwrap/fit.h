@@ -31,8 +31,7 @@ struct Layout {
 /// Error(usage) when even one texel a chart is too much, or the size is not a multiple of 2^mips.
 Layout fit_to_map(const FitRequest& request, const MapSize& map);
 
-/// As above when charts were packed before at `known` and a few of them changed since: goes down in small
-/// steps from there.
+/// As above when charts were packed before at `known` and a few of them changed since: goes down from there, never up.
 Layout fit_near(const FitRequest& request, const MapSize& map, double known);
 
 /// The smallest square map, a multiple of 4 (and of 2^mips) up to 16384, that holds the charts at this density. Throws
