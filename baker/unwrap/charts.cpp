@@ -50,7 +50,7 @@ std::vector<FlatChart> split_until_flat(const FaceGraph& graph, std::vector<std:
     std::vector<uint32_t> number(graph.corners.size());
     bool is_whole = true;  // pieces that creases alone have cut out
     while (!open.empty()) {
-        std::vector<Attempt> attempts(open.size());
+        std::vector<TriedChart> attempts(open.size());
         parallel_for(open.size(), 1, [&](size_t i) {
             stop_if_cancelled(progress);
             Patch patch = build_patch(graph, seams, std::move(open[i]), number);
@@ -65,7 +65,7 @@ std::vector<FlatChart> split_until_flat(const FaceGraph& graph, std::vector<std:
         });
         open.clear();
         is_whole = false;
-        for (Attempt& attempt : attempts) {
+        for (TriedChart& attempt : attempts) {
             if (attempt.chart) charts.push_back(std::move(*attempt.chart));
             std::move(attempt.parts.begin(), attempt.parts.end(), std::back_inserter(open));
         }

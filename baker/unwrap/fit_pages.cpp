@@ -55,9 +55,10 @@ class PagePacker {
     template <class Fit>
     Layout packed(const Pages& pages, size_t page, const Fit& fit) {
         const Progress progress = part_of(request_.progress, std::min(done_++, steps_ - 1), steps_);
-        if (pages.densities.size() == 1) return fit({request_.charts, request_.factors, request_.gutter, progress});
+        if (pages.densities.size() == 1)
+            return fit({request_.charts, request_.factors, request_.gutter, progress, request_.mips, request_.effort});
         const PageCharts own = charts_on(request_, pages, page);
-        return fit({own.charts, own.factors, request_.gutter, progress});
+        return fit({own.charts, own.factors, request_.gutter, progress, request_.mips, request_.effort});
     }
 
     const FitRequest& request_;

@@ -13,64 +13,8 @@ constexpr double least_extent = 0.5;
 constexpr double sliver_low = 0.2;
 constexpr double sliver_high = 0.8;
 
-using Texels = std::vector<uint8_t>;
-
-/// Whether triangle `t` meets the open square around `centre` with half side `half`: no side of either
-/// separates them.
-bool meets_square(const FlatTriangle& t, const Vec2& centre, double half) {
-    const Vec2 low = glm::min(t[0], glm::min(t[1], t[2])) - centre;
-    const Vec2 high = glm::max(t[0], glm::max(t[1], t[2])) - centre;
-    if (low.x >= half || low.y >= half || high.x <= -half || high.y <= -half) return false;
-    for (size_t e = 0; e < 3; ++e) {
-        const Vec2 edge = t[(e + 1) % 3] - t[e];
-        const Vec2 normal(-edge.y, edge.x);  // inwards: all of the triangle lies on its positive side
-        const double reach = half * (std::abs(normal.x) + std::abs(normal.y));
-        if (glm::dot(normal, t[e] - centre) >= reach) return false;
-    }
-    return true;
-}
-
-void mark(const FlatTriangle& t, double slack, const TexelChart& shape, Texels& texels) {
-    const Vec2 low = glm::min(t[0], glm::min(t[1], t[2])) - slack;
-    const Vec2 high = glm::max(t[0], glm::max(t[1], t[2])) + slack;
-    const int x0 = std::clamp(static_cast<int>(std::floor(low.x)), 0, shape.width - 1);
-    const int x1 = std::clamp(static_cast<int>(std::floor(high.x)), 0, shape.width - 1);
-    const int y0 = std::clamp(static_cast<int>(std::floor(low.y)), 0, shape.height - 1);
-    const int y1 = std::clamp(static_cast<int>(std::floor(high.y)), 0, shape.height - 1);
-    for (int y = y0; y <= y1; ++y) {
-        uint8_t* row = texels.data() + static_cast<size_t>(y) * static_cast<size_t>(shape.width);
-        for (int x = x0; x <= x1; ++x)
-            if (row[x] == 0 && meets_square(t, Vec2(x + 0.5, y + 0.5), 0.5 + slack)) row[x] = 1;
-    }
-}
-
-Texels turn_texels(const Texels& texels, int width, int height) {
-    Texels result(texels.size());
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x)
-            result[static_cast<size_t>(x) * static_cast<size_t>(height) + static_cast<size_t>(height - 1 - y)] =
-                texels[static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)];
-    return result;
-}
-
-Mask to_runs(const Texels& texels, int width, int height) {
-    Mask mask;
-    mask.width = width;
-    mask.height = height;
-    for (int y = 0; y < height; ++y) {
-        const uint8_t* row = texels.data() + static_cast<size_t>(y) * static_cast<size_t>(width);
-        for (int x = 0; x < width;) {
-            if (row[x] == 0) {
-                ++x;
-                continue;
-            }
-            const int begin = x;
-            while (x < width && row[x] != 0) ++x;
-            mask.runs.push_back({y, begin, x - begin});
-            mask.texels += static_cast<size_t>(x - begin);
-        }
-    }
-    return mask;
+bool is_same(const Mask& a, const Mask& b) {
+    return a.width == b.width && a.height == b.height && a.runs == b.runs;
 }
 
 }  // namespace
@@ -80,12 +24,22 @@ double coordinate_slack(const MapSize& map) {
     return 1e-6 + 10 * uv_step * std::max(map.width, map.height);
 }
 
-TexelChart to_texels(const FlatChart& chart, double texels_per_metre, const MapSize& map) {
+TexelChart to_texels(const FlatChart& chart, double texels_per_metre, const MapSize& map, const Vec2& axis, int cell) {
     TexelChart shape;
     if (chart.is_sliver) {
+        shape.width = shape.height = cell;
         shape.points = {Vec2(sliver_low), Vec2(sliver_high, sliver_low), Vec2(sliver_low, sliver_high)};
         return shape;
     }
+    Vec2 low{INFINITY};
+    Vec2 high{-INFINITY};
+    shape.points.reserve(chart.points.size());
+    for (const Vec2& p : chart.points) {
+        shape.points.push_back(to_axis(p, axis));
+        low = glm::min(low, shape.points.back());
+        high = glm::max(high, shape.points.back());
+    }
+    const Vec2 size = high - low;
     const double slack = coordinate_slack(map);
     // Area-true: projection shrinks what leans, the scale gives it back.
     double scale = texels_per_metre * std::sqrt(chart.area / chart.flat_area);
@@ -94,50 +48,84 @@ TexelChart to_texels(const FlatChart& chart, double texels_per_metre, const MapS
     const double fine =
         64 * uv_step * std::max(map.width, map.height) * std::sqrt(static_cast<double>(chart.faces.size()));
     const double least = std::max(least_extent, fine);
-    const double longer = std::max(chart.extent.x, chart.extent.y);
-    scale = std::max(scale, least / longer);
+    scale = std::max(scale, least / std::max(size.x, size.y));
     shape.texels_per_metre = scale / std::sqrt(chart.area / chart.flat_area);
     const auto widen = [&](double extent) { return std::max(scale, 0.5 * least / extent); };
-    const Vec2 scales(widen(chart.extent.x), widen(chart.extent.y));
-    const Vec2 extent = scales * chart.extent;
-    shape.width = std::max(1, static_cast<int>(std::ceil(extent.x + 2 * slack)));
-    shape.height = std::max(1, static_cast<int>(std::ceil(extent.y + 2 * slack)));
+    const Vec2 scales(widen(size.x), widen(size.y));
+    const Vec2 extent = scales * size;
+    const auto whole_cells = [&](double length) {
+        return cell * std::max(1, static_cast<int>(std::ceil((length + 2 * slack) / cell)));
+    };
+    shape.width = whole_cells(extent.x);
+    shape.height = whole_cells(extent.y);
     const Vec2 centring = 0.5 * (Vec2(shape.width, shape.height) - extent);
-    shape.points.reserve(chart.points.size());
-    for (const Vec2& p : chart.points) shape.points.push_back(p * scales + centring);
+    for (Vec2& p : shape.points) p = (p - low) * scales + centring;
     return shape;
 }
 
 Vec2 turned(const Vec2& p, const TexelChart& chart, int turns) {
+    const Vec2 q = turns >= mirrored ? Vec2(chart.width - p.x, p.y) : p;
     switch (turns & 3) {
         case 1:
-            return {chart.height - p.y, p.x};
+            return {chart.height - q.y, q.x};
         case 2:
-            return {chart.width - p.x, chart.height - p.y};
+            return {chart.width - q.x, chart.height - q.y};
         case 3:
-            return {p.y, chart.width - p.x};
+            return {q.y, chart.width - q.x};
         default:
-            return p;
+            return q;
     }
 }
 
-std::vector<Mask> make_masks(const FlatChart& chart, const TexelChart& shape, const MapSize& map) {
-    int width = shape.width;
-    int height = shape.height;
-    Texels texels(static_cast<size_t>(width) * static_cast<size_t>(height), width == 1 && height == 1 ? 1 : 0);
-    const double slack = coordinate_slack(map);
-    if (width > 1 || height > 1) {
-        for (const auto& t : chart.triangles)
-            mark({shape.points[t[0]], shape.points[t[1]], shape.points[t[2]]}, slack, shape, texels);
+Outline chart_outline(const FlatChart& chart) {
+    std::vector<std::array<uint32_t, 2>> edges;
+    for (const auto& t : chart.triangles)
+        for (size_t k = 0; k < 3; ++k) {
+            const uint32_t a = t[k];
+            const uint32_t b = t[(k + 1) % 3];
+            edges.push_back({std::min(a, b), std::max(a, b)});
+        }
+    std::sort(edges.begin(), edges.end());
+    Outline outline;
+    for (auto begin = edges.begin(); begin != edges.end();) {
+        const auto end = std::find_if(begin, edges.end(), [&](const auto& edge) { return edge != *begin; });
+        if ((end - begin) % 2 != 0) outline.push_back(*begin);
+        begin = end;
     }
-    std::vector<Mask> masks{to_runs(texels, width, height)};
-    const bool is_full = masks[0].texels == texels.size();
-    const int turns = is_full ? (width == height ? 1 : 2) : 4;
-    for (int i = 1; i < turns; ++i) {
-        texels = turn_texels(texels, width, height);
-        std::swap(width, height);
-        masks.push_back(to_runs(texels, width, height));
+    return outline.empty() ? edges : outline;
+}
+
+std::vector<Mask> make_masks(const Outline& outline, const TexelChart& shape, const MapSize& map, int cell) {
+    const auto mask_of = [&](bool is_swapped) {
+        const auto place = [&](const Vec2& p) { return is_swapped ? Vec2(p.y, p.x) : p; };
+        Raster raster(is_swapped ? shape.height : shape.width, is_swapped ? shape.width : shape.height);
+        for (const auto& [a, b] : outline)
+            raster.add_edge(place(shape.points[a]), place(shape.points[b]), coordinate_slack(map));
+        raster.fill();
+        return cell == 1 ? raster.mask() : raster.cells(cell).mask();
+    };
+    if (shape.width == cell && shape.height == cell) {
+        Raster raster(1, 1);
+        raster.add_edge(Vec2(0.5), Vec2(0.5), 0);
+        return {raster.mask()};
     }
+    const Mask upright = mask_of(false);
+    const Mask swapped = mask_of(true);
+    std::vector<Mask> masks;
+    const auto add = [&](Mask mask, int turns) {
+        mask.turns = turns;
+        const auto is_known = [&](const Mask& other) { return is_same(mask, other); };
+        if (std::none_of(masks.begin(), masks.end(), is_known)) masks.push_back(std::move(mask));
+    };
+    // A turn is a swap of x and y and a flip; rotations come first, so that of equal masks one stays unmirrored.
+    add(upright, 0);
+    add(flipped(swapped, true, false), 1);
+    add(flipped(upright, true, true), 2);
+    add(flipped(swapped, false, true), 3);
+    add(flipped(upright, true, false), mirrored);
+    add(flipped(swapped, true, true), mirrored + 1);
+    add(flipped(upright, false, true), mirrored + 2);
+    add(swapped, mirrored + 3);
     return masks;
 }
 

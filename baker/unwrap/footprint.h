@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "baker/unwrap/flatten.h"
+#include "baker/unwrap/mask.h"
 
 namespace surimi {
 
@@ -32,28 +33,32 @@ struct TexelChart {
     double texels_per_metre = 0;  ///< after widening charts that would be too small for float; 0 for slivers
 };
 
-/// `texels_per_metre` counts along the surface in space. Charts thinner than a fraction of a texel are
-/// widened: that costs no texel and keeps float rounding from collapsing them.
-TexelChart to_texels(const FlatChart& chart, double texels_per_metre, const MapSize& map);
+/// Coordinates of a point in a frame whose x runs along `axis`, of unit length.
+inline Vec2 to_axis(const Vec2& p, const Vec2& axis) {
+    return {glm::dot(p, axis), axis.x * p.y - axis.y * p.x};
+}
 
-/// Point of a chart turned counter-clockwise by `turns` right angles within its box.
+/// `texels_per_metre` counts along the surface in space; `axis` (a unit vector) is the direction of the chart that
+/// comes to lie along x. The box is a multiple of `cell` texels in both directions. Charts thinner than a fraction of a
+/// texel are widened: that costs no texel and keeps float rounding from collapsing them.
+TexelChart to_texels(const FlatChart& chart, double texels_per_metre, const MapSize& map, const Vec2& axis = {1, 0},
+                     int cell = 1);
+
+/// Added to a number of right angles: first mirrored (x becomes width - x).
+inline constexpr int mirrored = 4;
+
+/// Point of a chart within its box, mirrored from `turns` = 4 on, then turned counter-clockwise by `turns` mod 4 right
+/// angles.
 Vec2 turned(const Vec2& p, const TexelChart& chart, int turns);
 
-/// Touched texels as runs of rows, sorted by row, at most a few for each row.
-struct Mask {
-    struct Run {
-        int row = 0;
-        int begin = 0;
-        int length = 0;
-    };
-    int width = 0;
-    int height = 0;
-    size_t texels = 0;
-    std::vector<Run> runs;
-};
+/// The edges of a chart with a triangle on one side only, as indices into its points. All edges where there is none
+/// such: triangles that lie on each other, which round_chart finds.
+using Outline = std::vector<std::array<uint32_t, 2>>;
+Outline chart_outline(const FlatChart& chart);
 
-/// The chart's texels under 1, 2 or 4 rotations (fewer where the mask is a full rectangle and turning changes
-/// nothing). A texel is touched when a triangle, grown by coordinate_slack, meets its open square.
-std::vector<Mask> make_masks(const FlatChart& chart, const TexelChart& shape, const MapSize& map);
+/// The chart's texels in the eight poses of turned(), those left out that equal one before. A texel is touched when the
+/// chart, grown by coordinate_slack, meets its open square. With `cell` above 1 the masks count cells of so many
+/// texels in both directions, touched when one of their texels is; the shape's box has to be a multiple.
+std::vector<Mask> make_masks(const Outline& outline, const TexelChart& shape, const MapSize& map, int cell = 1);
 
 }  // namespace surimi

@@ -169,15 +169,15 @@ class Joiner {
         std::sort(faces.begin(), faces.end(),
                   [&](uint32_t l, uint32_t r) { return graph_.ranks[l] < graph_.ranks[r]; });
         const Patch patch = build_patch(graph_, seams_, std::move(faces), number_);
-        Attempt attempt = try_chart(graph_, patch, bound_worth_it(run, patch.unit * patch.unit));
-        if (!attempt.chart || !is_worth_it(run, *attempt.chart)) {
+        TriedChart tried = try_chart(graph_, patch, bound_worth_it(run, patch.unit * patch.unit));
+        if (!tried.chart || !is_worth_it(run, *tried.chart)) {
             for (const Edge& edge : run.edges) set_seam(graph_, edge.face, edge.k, true, seams_);
             return false;
         }
         for (const uint32_t f : patch.faces) chart_of_[f] = static_cast<uint32_t>(charts_.size());
         charts_[a].faces.clear();
         charts_[b].faces.clear();
-        charts_.push_back(std::move(*attempt.chart));
+        charts_.push_back(std::move(*tried.chart));
         return true;
     }
 

@@ -19,11 +19,8 @@ constexpr double least_height = 0.25;
 
 class Repair {
   public:
-    Repair(const FlatChart& chart, std::vector<Vec2>& points, const MapSize& map)
-        : triangles_(chart.triangles),
-          points_(points),
-          start_(points),
-          texels_(map.width * uv_step, map.height * uv_step) {}
+    Repair(const std::vector<std::array<uint32_t, 3>>& triangles, std::vector<Vec2>& points, const MapSize& map)
+        : triangles_(triangles), points_(points), start_(points), texels_(map.width * uv_step, map.height * uv_step) {}
 
     FlatTriangle triangle(uint32_t t) const {
         const auto& c = triangles_[t];
@@ -148,7 +145,11 @@ RoundedChart round_chart(const FlatChart& chart, const TexelChart& shape, const 
         result.points.push_back(corner + glm::round(turned(p, shape, placement.turns) * steps));
     if (chart.is_sliver) return result;
 
-    Repair repair(chart, result.points, map);
+    // A mirrored chart runs clockwise as a whole; it is judged as if seen from behind.
+    std::vector<std::array<uint32_t, 3>> triangles = chart.triangles;
+    if (placement.turns >= mirrored)
+        for (auto& t : triangles) std::swap(t[1], t[2]);
+    Repair repair(triangles, result.points, map);
     for (int pass = 0; pass <= most_passes; ++pass) {
         result.bad = repair.find_bad();
         if (!result.bad.empty()) {
@@ -158,7 +159,7 @@ RoundedChart round_chart(const FlatChart& chart, const TexelChart& shape, const 
             if (pass < most_passes) continue;
         }
         std::vector<FlatTriangle> flat;
-        for (uint32_t t = 0; t < chart.triangles.size(); ++t) flat.push_back(repair.triangle(t));
+        for (uint32_t t = 0; t < triangles.size(); ++t) flat.push_back(repair.triangle(t));
         result.overlapping = overlapping_pairs(flat, 0, 256);
         if (result.overlapping.empty()) break;
         if (pass < most_passes)

@@ -23,18 +23,18 @@ std::optional<std::array<uint32_t, 2>> find_overlap(const FlatChart& chart) {
     return pairs[pairs.size() / 2];
 }
 
-Attempt try_chart(const FaceGraph& graph, const Patch& patch, const DistortionBound& bound) {
-    Attempt attempt;
+TriedChart try_chart(const FaceGraph& graph, const Patch& patch, const DistortionBound& bound) {
+    TriedChart tried;
     const std::vector<double> logarithms = conformal_logarithms(patch);
-    if (predicted_energy(patch, logarithms) - 4 > forecast_tolerance * (bound.energy - 4)) return attempt;
+    if (predicted_energy(patch, logarithms) - 4 > forecast_tolerance * (bound.energy - 4)) return tried;
     const std::optional<Flattening> flat = flatten_within(patch, logarithms, bound);
-    if (!flat) return attempt;
+    if (!flat) return tried;
     FlatChart chart = make_chart(graph, patch, *flat);
     if (const auto overlap = find_overlap(chart))
-        attempt.apart = *overlap;
+        tried.apart = *overlap;
     else
-        attempt.chart = std::move(chart);
-    return attempt;
+        tried.chart = std::move(chart);
+    return tried;
 }
 
 }  // namespace surimi

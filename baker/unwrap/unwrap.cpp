@@ -137,6 +137,10 @@ std::vector<double> factors_of(const std::vector<ChartWeight>& weights) {
     return factors;
 }
 
+double packing_effort(UvQuality quality) {
+    return quality == UvQuality::draft ? 0.2 : quality == UvQuality::medium ? 1 : 5;
+}
+
 Atlas to_atlas(const Scene& scene, const Work& work, const Layout& layout, const std::vector<RoundedChart>& rounded) {
     Atlas atlas;
     atlas.width = layout.map.width;
@@ -188,7 +192,8 @@ Atlas unwrap(const Scene& scene, const UnwrapSettings& settings, const Progress&
     work.weights = weigh(scene, settings, work.charts, scales);
     for (int round = 0;; ++round) {
         const std::vector<double> factors = factors_of(work.weights);
-        const FitRequest request{work.charts, factors, settings.gutter, progress};
+        const FitRequest request{work.charts, factors,       settings.gutter,
+                                 progress,    settings.mips, packing_effort(settings.quality)};
         const Layout layout = fit_pages(scene, request, settings, work.pages);
         std::vector<RoundedChart> rounded(work.charts.size());
         parallel_for(work.charts.size(), 16, [&](size_t i) {
