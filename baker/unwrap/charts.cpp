@@ -2,7 +2,6 @@
 #include "baker/unwrap/charts.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "baker/unwrap/join.h"
 #include "baker/unwrap/split.h"
@@ -33,12 +32,13 @@ bool is_needle(const FaceGraph& graph, uint32_t face) {
     return graph.areas[face] < needle_share * longest;
 }
 
-void cut_creases(const FaceGraph& graph, const std::vector<uint32_t>& faces, Seams& seams) {
+/// Cuts or joins the creases between some faces.
+void set_creases(const FaceGraph& graph, const std::vector<uint32_t>& faces, bool is_cut, Seams& seams) {
     for (const uint32_t f : faces) {
         for (uint32_t k = 0; k < 3; ++k) {
             const uint32_t g = graph.neighbours[f][k];
             if (g == no_face || g < f || glm::dot(graph.normals[f], graph.normals[g]) > crease_cosine) continue;
-            if (!is_needle(graph, f) && !is_needle(graph, g)) set_seam(graph, f, k, true, seams);
+            if (!is_needle(graph, f) && !is_needle(graph, g)) set_seam(graph, f, k, is_cut, seams);
         }
     }
 }
@@ -87,20 +87,20 @@ std::vector<std::vector<uint32_t>> cut_at_creases(const FaceGraph& graph, const 
     std::vector<uint32_t> number(graph.corners.size());
     std::vector<std::vector<uint32_t>> result;
     for (const std::vector<uint32_t>& piece : connected_parts(graph, seams, faces, number)) {
-        Seams creased = seams;
-        cut_creases(graph, piece, creased);
-        std::vector<std::vector<uint32_t>> parts = connected_parts(graph, creased, piece, number);
+        set_creases(graph, piece, true, seams);
+        std::vector<std::vector<uint32_t>> parts = connected_parts(graph, seams, piece, number);
         double largest = 0;
         for (const auto& part : parts) largest = std::max(largest, area_of(graph, part));
         constexpr double dominant_share = 0.6;
-        std::optional<FlatChart> chart;
-        if (parts.size() > 1 && largest > dominant_share * area_of(graph, piece))
-            chart = try_chart(graph, build_patch(graph, seams, piece, number), settings.patience).chart;
-        if (chart) {
-            charts.push_back(std::move(*chart));
-            continue;
+        if (parts.size() > 1 && largest > dominant_share * area_of(graph, piece)) {
+            set_creases(graph, piece, false, seams);
+            TriedChart whole = try_chart(graph, build_patch(graph, seams, piece, number), settings.patience);
+            if (whole.chart) {
+                charts.push_back(std::move(*whole.chart));
+                continue;
+            }
+            set_creases(graph, piece, true, seams);
         }
-        seams = std::move(creased);
         std::move(parts.begin(), parts.end(), std::back_inserter(result));
     }
     return result;
@@ -111,7 +111,7 @@ std::vector<std::vector<uint32_t>> cut_at_creases(const FaceGraph& graph, const 
 CutSettings cut_settings(const UnwrapSettings& settings, double texels) {
     const double excess = settings.stretch - 1;
     const auto bound = [](double e) { return DistortionBound{4 + 0.4 * e * e, 1 + e}; };
-    constexpr double comfort = 0.6;
+    constexpr double comfort = 0.6;  // of the stretch above 1 that is asked for, by measurement: docs/decisions.md
     constexpr double patience = 1.06;
     return {bound(excess), bound(comfort * excess), bound(patience * excess), settings.quality, texels};
 }

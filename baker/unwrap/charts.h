@@ -16,7 +16,7 @@ namespace surimi {
 struct CutSettings {
     DistortionBound bound;     ///< of every chart
     DistortionBound comfort;   ///< pieces above it are split further, and joined again only where that pays
-    DistortionBound patience;  ///< of a piece that would otherwise fall into crumbs
+    DistortionBound patience;  ///< of a piece that would otherwise fall into crumbs: a little more
     UvQuality quality = UvQuality::medium;
     double texels = 0;  ///< that the surface will have, about: seams finer than the map are not worth the time
 };

@@ -39,7 +39,7 @@ void visit_close_pairs(const std::vector<FlatTriangle>& triangles,
                        const std::function<bool(uint32_t, uint32_t)>& visit);
 
 /// Pairs of triangles that overlap deeper than `margin`, sorted, no pair twice, about `limit` at most.
-/// Triangles that are not counter-clockwise are left out. No pair, no flip and every triangle mapped: then
+/// Triangles that are not counter-clockwise are left out. No pair, no flip and every triangle mapped (M43): then
 /// the flattening is one to one, whatever holes, slits or branch points the chart has.
 std::vector<std::array<uint32_t, 2>> overlapping_pairs(const std::vector<FlatTriangle>& triangles, double margin,
                                                        size_t limit);

@@ -7,7 +7,7 @@ namespace {
 /// A seam across a sharper edge than this is not seen.
 const double visible_cosine = std::cos(40 * pi / 180);
 
-/// Share of a chart's texels that a visible seam as long as the root of its area is worth. (M45 and docs/decisions.md)
+/// Share of a chart's texels that a visible seam as long as the root of its area is worth (M45), by measurement.
 constexpr double texels_for_visible = 0.2;
 /// And one that is not seen: it still needs a gutter.
 constexpr double texels_for_hidden = 0.01;

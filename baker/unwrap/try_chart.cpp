@@ -10,6 +10,19 @@ namespace {
 /// How far the forecast may be off before it decides.
 constexpr double forecast_tolerance = 2;
 
+/// A single triangle as it is.
+Flattening own_frame(const Patch& patch) {
+    const auto& t = patch.triangles[0];
+    const Vec3 ab = patch.positions[t[1]] - patch.positions[t[0]];
+    const Vec3 ac = patch.positions[t[2]] - patch.positions[t[0]];
+    const double length = glm::length(ab);
+    Flattening flat;
+    flat.points.resize(3);
+    flat.points[t[1]] = Vec2(length, 0);
+    flat.points[t[2]] = Vec2(glm::dot(ab, ac), glm::length(glm::cross(ab, ac))) / length;
+    return flat;
+}
+
 }  // namespace
 
 std::optional<std::array<uint32_t, 2>> find_overlap(const FlatChart& chart) {
@@ -25,6 +38,10 @@ std::optional<std::array<uint32_t, 2>> find_overlap(const FlatChart& chart) {
 
 TriedChart try_chart(const FaceGraph& graph, const Patch& patch, const DistortionBound& bound) {
     TriedChart tried;
+    if (patch.triangles.size() == 1) {
+        tried.chart = make_chart(graph, patch, own_frame(patch));
+        return tried;
+    }
     const std::vector<double> logarithms = conformal_logarithms(patch);
     if (predicted_energy(patch, logarithms) - 4 > forecast_tolerance * (bound.energy - 4)) return tried;
     const std::optional<Flattening> flat = flatten_within(patch, logarithms, bound);

@@ -189,8 +189,9 @@ TEST(UnwrapDiscs, SignedZerosAreOneZero) {
 
 TEST(UnwrapCharts, AreNoMoreThanXatlasMakes) {
     // Of meshes like these (research/unwrap.md, section 3); long strips and rings are divided for the map's sake.
-    const std::map<std::string, size_t> most{{"uv_sphere", 6}, {"torus", 14},          {"capped_cylinder", 6}, {"box", 6},
-                                             {"cloth", 65},    {"touching_cubes", 21}, {"foliage", 150}};
+    const std::map<std::string, size_t> most{{"uv_sphere", 6}, {"torus", 14}, {"capped_cylinder", 6},
+                                             {"box", 6},       {"cloth", 65}, {"touching_cubes", 21},
+                                             {"foliage", 150}};
     size_t counted = 0;
     for (const test::NamedMesh& mesh : test::all_meshes()) {
         const auto known = most.find(mesh.name);

@@ -147,8 +147,8 @@ TEST(UnwrapPages, ASurfaceThatFillsAPageDoesNotHoldUpTheOthers) {
     EXPECT_EQ(atlas.weights[0].cause, DensityCause::full_page);
     EXPECT_LT(atlas.weights[0].most, 0.1);
     for (const Chart& chart : atlas.charts)
-        EXPECT_NEAR(chart.texels_per_metre / atlas.texels_per_metre, chart.surface == hall ? atlas.weights[0].most : 1.0,
-                    1e-12);
+        EXPECT_NEAR(chart.texels_per_metre / atlas.texels_per_metre,
+                    chart.surface == hall ? atlas.weights[0].most : 1.0, 1e-12);
     EXPECT_GT(atlas.texels_per_metre, unwrap(crates(6), on_pages(1, 128), {}).texels_per_metre * 0.99);
 }
 
