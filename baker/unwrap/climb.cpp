@@ -95,6 +95,9 @@ std::optional<Layout> climb(const PackTask& task, const ClimbLimits& limits) {
         if (scout.best) {
             ClimbLimits fine = limits;
             fine.start = std::min(limits.highest, scout.best->texels_per_metre * factor * close);
+            // The best of them once more with all poses, since finer texels may favour another.
+            scout.successes.push_back(scout.successes[0]);
+            scout.successes.back().poses.clear();
             Climber climber{task, scout.successes, limits.most_work};
             run(climber, fine);
             if (climber.best) return std::move(climber.best);

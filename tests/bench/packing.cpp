@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Packs made-up charts and those of scenes, and prints as Markdown how much of the map they fill and how dense they
-// get. Usage: packing [--size W H] [--gutter N] [--only TEXT] [FILE.glb ...]
+// get. Usage: packing [--size W H] [--gutter N] [--mips N] [--only TEXT] [FILE.glb ...]
 // --only: of the made-up sets, those with TEXT in their name.
 #include <chrono>
 #include <cstdio>
@@ -22,6 +22,7 @@ using namespace surimi;
 struct Job {
     MapSize map{1024, 1024};
     int gutter = 2;
+    int mips = 0;
 };
 
 /// Charts of an atlas, flat, in metres.
@@ -84,7 +85,7 @@ double cpu_seconds() {
 }
 
 void measure(const std::string& name, const Known& known, const Job& job) {
-    const FitRequest request{known.charts, known.factors, job.gutter, {}};
+    const FitRequest request{known.charts, known.factors, job.gutter, {}, job.mips};
     const double start = cpu_seconds();
     const auto begin = std::chrono::steady_clock::now();
     const Layout layout = fit_to_map(request, job.map);
@@ -117,16 +118,19 @@ int run(int argc, char** argv) {
             i += 2;
         } else if (std::strcmp(argv[i], "--gutter") == 0 && i + 1 < argc)
             job.gutter = std::atoi(argv[++i]);
+        else if (std::strcmp(argv[i], "--mips") == 0 && i + 1 < argc)
+            job.mips = std::atoi(argv[++i]);
         else if (std::strcmp(argv[i], "--only") == 0 && i + 1 < argc)
             only = argv[++i];
         else
             files.emplace_back(argv[i]);
     }
     std::printf(
-        "| charts of, at %d x %d, gutter %d | charts | share of the map | with touched texels and gutters | texels per "
+        "| charts of, at %d x %d, gutter %d, mips %d | charts | share of the map | with touched texels and gutters | "
+        "texels per "
         "metre | CPU s | s |\n"
         "|---|--:|--:|--:|--:|--:|--:|\n",
-        job.map.width, job.map.height, job.gutter);
+        job.map.width, job.map.height, job.gutter, job.mips);
     for (const test::ChartSet& set : test::chart_sets())
         if (set.name.find(only) != std::string::npos)
             measure(set.name, {set.charts, std::vector<double>(set.charts.size(), 1)}, job);
