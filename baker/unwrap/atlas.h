@@ -44,6 +44,25 @@ struct DensityWeight {
     double most = 1;         ///< of the densest
 };
 
+/// What is odd about the meshes of a scene as they were cut; nothing of it is an error.
+struct MeshCounts {
+    size_t components = 0;       ///< parts that hang together across edges
+    size_t open_edges = 0;       ///< with one face
+    size_t branching_edges = 0;  ///< with more than two: only faces that continue each other stay together
+    size_t opposed_edges = 0;    ///< whose two faces have their fronts on different sides, as on a Moebius strip
+    size_t doubled_faces = 0;    ///< copies of a face with the same front
+    size_t slivers = 0;          ///< faces without a shape to speak of, each with a token of a texel
+
+    void add(const MeshCounts& other) {
+        components += other.components;
+        open_edges += other.open_edges;
+        branching_edges += other.branching_edges;
+        opposed_edges += other.opposed_edges;
+        doubled_faces += other.doubled_faces;
+        slivers += other.slivers;
+    }
+};
+
 struct Atlas {
     int width = 0;  ///< of every page
     int height = 0;
@@ -55,6 +74,7 @@ struct Atlas {
     std::vector<DensityWeight> weights;  ///< sorted by surface and cause
 
     bool is_existing = false;           ///< the UVs are the file's own
+    MeshCounts meshes;                  ///< of new charts
     std::string uv_reason;              ///< why these UVs, where the choice was left to us; else empty
     std::vector<std::string> warnings;  ///< for the user
 };

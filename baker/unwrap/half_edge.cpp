@@ -174,9 +174,39 @@ void pair_uses(const FaceGraph& graph, const EdgeUse* begin, const EdgeUse* end,
     }
 }
 
+void count_edge(FaceGraph& graph, const EdgeUse* uses, size_t count) {
+    const auto start = [&](const EdgeUse& use) { return graph.corners[use.corner / 3][use.corner % 3]; };
+    graph.counts.open_edges += count == 1 ? 1 : 0;
+    graph.counts.branching_edges += count > 2 ? 1 : 0;
+    graph.counts.opposed_edges += count == 2 && start(uses[0]) == start(uses[1]) ? 1 : 0;
+}
+
+size_t count_components(const FaceGraph& graph) {
+    std::vector<bool> is_seen(graph.corners.size(), false);
+    std::vector<uint32_t> open;
+    size_t components = 0;
+    for (uint32_t start = 0; start < is_seen.size(); ++start) {
+        if (is_seen[start] || graph.is_sliver[start]) continue;
+        ++components;
+        is_seen[start] = true;
+        open.push_back(start);
+        while (!open.empty()) {
+            const uint32_t f = open.back();
+            open.pop_back();
+            for (const uint32_t beyond : graph.neighbours[f]) {
+                if (beyond == no_face || is_seen[beyond]) continue;
+                is_seen[beyond] = true;
+                open.push_back(beyond);
+            }
+        }
+    }
+    return components;
+}
+
 /// For each corner the one where the same edge starts in the face beyond, or no_face.
-std::vector<uint32_t> pair_edges(const FaceGraph& graph) {
+std::vector<uint32_t> pair_edges(FaceGraph& graph) {
     const std::vector<uint32_t> layers = find_layers(graph);
+    for (const uint32_t layer : layers) graph.counts.doubled_faces += layer > 0 ? 1 : 0;
     std::vector<EdgeUse> uses;
     uses.reserve(graph.corners.size() * 3);
     for (uint32_t f = 0; f < graph.corners.size(); ++f) {
@@ -195,6 +225,7 @@ std::vector<uint32_t> pair_edges(const FaceGraph& graph) {
     for (size_t begin = 0; begin < uses.size();) {
         size_t end = begin + 1;
         while (end < uses.size() && uses[end].is_same_edge(uses[begin])) ++end;
+        count_edge(graph, &uses[begin], end - begin);
         if (end - begin <= most_uses) pair_uses(graph, &uses[begin], &uses[begin] + (end - begin), partner);
         begin = end;
     }
@@ -318,6 +349,8 @@ FaceGraph build_face_graph(const Surface& surface) {
             edge = mesh.next_halfedge_handle(edge);
         }
     }
+    graph.counts.components = count_components(graph);
+    graph.counts.slivers = static_cast<size_t>(std::count(graph.is_sliver.begin(), graph.is_sliver.end(), true));
     return graph;
 }
 

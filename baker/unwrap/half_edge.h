@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "baker/unwrap/atlas.h"
 #include "runtime/base/math.h"
 #include "runtime/scene/scene.h"
 
@@ -26,6 +27,7 @@ struct FaceGraph {
     std::vector<uint8_t> first_corners;  ///< of each face: the corner at its lowest place, where such an order starts
     std::vector<bool> is_sliver;         ///< no direction to speak of: area below 2e-12 of the longest edge squared.
                                          ///< Has no neighbours
+    MeshCounts counts;
 };
 
 /// All faces, in the order of their ranks.

@@ -205,6 +205,7 @@ Atlas unwrap(const Scene& scene, const UnwrapSettings& settings, const Progress&
         mark_full_pages(work.charts, work.pages, layout.texels_per_metre, work.weights);
         atlas.weights = list_weights(work.charts, work.weights);
         atlas.uv_reason = why_new_charts;
+        for (const FaceGraph& graph : work.graphs) atlas.meshes.add(graph.counts);
         return atlas;
     }
 }

@@ -35,6 +35,12 @@ Json quality_section(const UnwrapNumbers& n) {
               {"smoothOverRootArea", n.smooth_seam_over_root_area}}}};
 }
 
+Json meshes_section(const MeshCounts& meshes) {
+    return {{"components", meshes.components},          {"openEdges", meshes.open_edges},
+            {"branchingEdges", meshes.branching_edges}, {"opposedEdges", meshes.opposed_edges},
+            {"doubledFaces", meshes.doubled_faces},     {"slivers", meshes.slivers}};
+}
+
 Json outputs_section(const std::vector<UnwrapFile>& files, int pages) {
     Json section = Json::array();
     for (const UnwrapFile& file : files) {
@@ -59,6 +65,7 @@ std::string make_unwrap_report(const Scene& scene, const Unwrapped& unwrapped, c
         {"squareMetres", n.area},
         {"triangles",
          {{"count", n.triangles}, {"degenerate", n.degenerate_triangles}, {"collapsed", n.collapsed_triangles}}},
+        {"meshes", meshes_section(unwrapped.atlas.meshes)},
         {"charts",
          {{"count", n.charts}, {"singleTriangle", n.single_triangle_charts}, {"mirrored", n.mirrored_charts}}},
         {"quality", quality_section(n)},

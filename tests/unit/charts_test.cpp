@@ -162,6 +162,22 @@ TEST(Charts, EveryFaceIsInOneOfThem) {
     EXPECT_TRUE(std::all_of(count.begin(), count.end(), [](int n) { return n == 1; }));
 }
 
+TEST(FaceGraph, CountsWhatIsOdd) {
+    const MeshCounts sheet_counts = graph_of(sheet(2, 1)).counts;
+    EXPECT_EQ(sheet_counts.open_edges, 6u);
+    EXPECT_EQ(sheet_counts.components, 1u);
+    EXPECT_EQ(sheet_counts.branching_edges + sheet_counts.opposed_edges + sheet_counts.doubled_faces, 0u);
+    const MeshCounts book = graph_of(test::book()).counts;
+    EXPECT_EQ(book.branching_edges, 1u);  // the spine
+    EXPECT_GE(book.components, 2u);
+    EXPECT_GT(graph_of(test::moebius()).counts.opposed_edges, 0u);
+    Mesh twice = sheet(1, 1);
+    twice.triangles.push_back(twice.triangles[0]);
+    EXPECT_EQ(graph_of(twice).counts.doubled_faces, 1u);
+    EXPECT_EQ(graph_of(test::box(Vec3(0), Vec3(1))).counts.open_edges, 0u);
+    EXPECT_GT(graph_of(test::needle_fan()).counts.slivers, 0u);
+}
+
 TEST(Charts, StopWhenTold) {
     const FaceGraph graph = graph_of(test::torus(24, 12));
     Progress progress;
