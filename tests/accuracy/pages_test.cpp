@@ -104,7 +104,8 @@ TEST(BakePages, PagesHaveRandomNumbersOfTheirOwn) {
     EXPECT_GT(different, penumbra / 2);
 }
 
-/// What V looks like in a file that a bake wrote; `is_swapped`: with the maps in the wrong order.
+/// The monitor's diffuse light in a file that a bake wrote: where none arrives V has no meaning, and does not show.
+/// `is_swapped`: with the maps in the wrong order.
 Image<Vec3f> picture_of(const std::filesystem::path& file, size_t page_count, bool is_swapped = false) {
     Scene scene = read_gltf(file);
     find_monitors(scene, {});
@@ -114,7 +115,7 @@ Image<Vec3f> picture_of(const std::filesystem::path& file, size_t page_count, bo
     const RayScene rays(scene);
     const Lighting lighting(scene, pages, rays, lit_monitors(scene), {});
     const View view = look_at({0, 1.5, 0}, {0, 1, -3}, pi / 3);
-    return render(lighting, view, {.width = 160, .height = 90, .samples_per_side = 2, .show = Show::visibility}, {})
+    return render(lighting, view, {.width = 160, .height = 90, .samples_per_side = 2, .show = Show::diffuse}, {})
         .pixels;
 }
 
