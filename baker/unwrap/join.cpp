@@ -50,7 +50,7 @@ class Joiner {
             for (const uint32_t f : charts[c].faces) chart_of_[f] = c;
             faces += charts[c].faces.size();
         }
-        constexpr double triangles_per_texel = 50;
+        constexpr double triangles_per_texel = 30;
         effort_ =
             std::min(effort_of(settings.quality) * static_cast<double>(faces), triangles_per_texel * settings.texels);
     }

@@ -65,7 +65,7 @@ class StepSystem {
         std::vector<Vec2> direction = better;
         std::vector<Vec2> image(count);
         double product = dot(residual, better);
-        const double enough = 1e-3 * product;  // the norm falls to 3 %
+        const double enough = 1e-2 * product;  // the norm falls to 10 %
         constexpr int most_iterations = 30;
         for (iterations_ = 0; iterations_ < most_iterations && product > enough; ++iterations_) {
             apply(direction, image);

@@ -32,6 +32,7 @@ struct Work {
 void check_settings(const Scene& scene, const UnwrapSettings& settings) {
     if (triangle_count(scene) == 0) throw Error(ErrorKind::nothing_to_bake, "the scene has no triangle to unwrap");
     if (settings.gutter < 1) throw Error(ErrorKind::usage, "the gutter has to be at least 1 texel");
+    if (!(settings.stretch > 1)) throw Error(ErrorKind::usage, "the stretch allowed has to be above 1");
     if (settings.atlases < 1 || settings.atlases > 64)
         throw Error(ErrorKind::usage,
                     "a scene goes on 1 to 64 atlases, not " + std::to_string(settings.atlases) + "; raise the size");

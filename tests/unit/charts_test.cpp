@@ -185,6 +185,14 @@ TEST(Charts, StopWhenTold) {
     EXPECT_THROW(cut_into_charts(graph, cut_settings({}, 1e6), progress), Error);
 }
 
+TEST(Charts, StretchHasToBeAboveOne) {
+    UnwrapSettings settings;
+    for (const double stretch : {1.0, 0.5, static_cast<double>(NAN)}) {
+        settings.stretch = stretch;
+        EXPECT_THROW(unwrap(test::scene_of({sheet(1, 1)}), settings, {}), Error);
+    }
+}
+
 TEST(Shorten, ALongSheetIsDividedAndASquareOneIsNot_M45) {
     const std::vector<FaceGraph> graphs{graph_of(sheet(64, 4)), graph_of(sheet(16, 16))};
     for (const size_t g : {size_t{0}, size_t{1}}) {
