@@ -155,7 +155,8 @@ void pair_uses(const FaceGraph& graph, const EdgeUse* begin, const EdgeUse* end,
             if (start_i == start_j || are_back_to_back(graph, i->corner / 3, j->corner / 3)) continue;
             constexpr double steps = 1e6;
             const double bend = -glm::dot(graph.normals[i->corner / 3], graph.normals[j->corner / 3]);
-            const auto [low, high] = std::minmax(rank(i->corner), rank(j->corner));
+            const uint32_t low = std::min(rank(i->corner), rank(j->corner));
+            const uint32_t high = std::max(rank(i->corner), rank(j->corner));
             const Vec3& edge = graph.positions[graph.corners[i->corner / 3][i->corner % 3]];
             const Vec3& tip = graph.positions[graph.corners[j->corner / 3][(j->corner + 2) % 3]];
             constexpr double rounding = 1e-9;
