@@ -174,7 +174,7 @@ void expect_one_chart(const Mesh& mesh) {
 }
 
 TEST(UnwrapDiscs, ATerrainIsOneChart) {
-    expect_one_chart(test::terrain(is_slow_build ? 32 : 128));
+    expect_one_chart(test::terrain(128));
 }
 
 TEST(UnwrapDiscs, AnArchIsOneChartWithoutStretch) {
