@@ -110,7 +110,7 @@ std::vector<std::vector<uint32_t>> cut_at_creases(const FaceGraph& graph, const 
 
 CutSettings cut_settings(const UnwrapSettings& settings, double texels) {
     const double excess = settings.stretch - 1;
-    const auto bound = [](double e) { return DistortionBound{4 + 0.4 * e * e, 1 + e}; };
+    const auto bound = [](double e) { return DistortionBound{4 + energy_of_stretch * e * e, 1 + e}; };
     constexpr double comfort = 0.6;  // of the stretch above 1 that is asked for, by measurement: docs/decisions.md
     constexpr double patience = 1.06;
     return {bound(excess), bound(comfort * excess), bound(patience * excess), settings.quality, texels};

@@ -31,6 +31,9 @@ struct Distortion {
 
 Distortion measure_distortion(const Patch& patch, const std::vector<Vec2>& points);
 
+/// Mean energy above an isometry that goes with a stretch, over (stretch - 1)^2, about.
+inline constexpr double energy_of_stretch = 0.4;
+
 /// What a chart may be stretched.
 struct DistortionBound {
     double energy = 4.1;

@@ -142,6 +142,14 @@ std::vector<std::array<uint32_t, 3>> neighbours_of(const FlatChart& chart) {
     return neighbours;
 }
 
+std::vector<Vec3> centroids_of(const FlatChart& chart) {
+    std::vector<Vec3> centroids;
+    centroids.reserve(chart.triangles.size());
+    for (const auto& t : chart.triangles)
+        centroids.emplace_back((chart.points[t[0]] + chart.points[t[1]] + chart.points[t[2]]) / 3.0, 0.0);
+    return centroids;
+}
+
 std::vector<FlatChart> divide(const FaceGraph& graph, const FlatChart& chart, const std::vector<uint32_t>& parts) {
     const auto neighbours = neighbours_of(chart);
     std::vector<bool> is_seen(parts.size(), false);

@@ -34,6 +34,9 @@ FlatChart make_chart(const FaceGraph& graph, const Patch& patch, const Flattenin
 /// For each triangle of a chart the one beyond each edge, or no_face.
 std::vector<std::array<uint32_t, 3>> neighbours_of(const FlatChart& chart);
 
+/// The centroids of a chart's triangles, in the plane z = 0.
+std::vector<Vec3> centroids_of(const FlatChart& chart);
+
 inline constexpr uint32_t left_out = UINT32_MAX;
 
 /// A chart in parts, each as it lies: one chart for every connected piece of the triangles with the same number in

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "baker/unwrap/union_find.h"
+
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
 namespace surimi {
@@ -233,25 +235,15 @@ std::vector<uint32_t> pair_edges(FaceGraph& graph) {
     return partner;
 }
 
-uint32_t find_root(std::vector<uint32_t>& parent, uint32_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-}
-
 /// One mesh vertex for each fan of faces: corners are the same vertex when paired edges connect them. A
 /// vertex with one fan and edges with two faces are what OpenMesh accepts in every order.
 std::vector<uint32_t> unite_fans(const std::vector<uint32_t>& partner) {
     std::vector<uint32_t> fan(partner.size());
     std::iota(fan.begin(), fan.end(), 0u);
-    const auto unite = [&](uint32_t a, uint32_t b) {
-        a = find_root(fan, a);
-        b = find_root(fan, b);
-        fan[std::max(a, b)] = std::min(a, b);
-    };
     for (uint32_t corner = 0; corner < partner.size(); ++corner) {
         if (partner[corner] == no_face) continue;
-        unite(corner, after(partner[corner]));
-        unite(after(corner), partner[corner]);
+        unite(fan, corner, after(partner[corner]));
+        unite(fan, after(corner), partner[corner]);
     }
     for (uint32_t corner = 0; corner < fan.size(); ++corner) fan[corner] = find_root(fan, corner);
     return fan;

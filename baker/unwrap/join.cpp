@@ -62,7 +62,7 @@ class Joiner {
         while (!queue_.empty() && effort_ > 0) {
             if (progress.is_cancelled && progress.is_cancelled())
                 throw Error(ErrorKind::interrupted, "interrupted while joining charts");
-            const Run run = std::move(runs_[std::get<3>(queue_.top())]);
+            const Run run = std::move(runs_[static_cast<size_t>(-std::get<2>(queue_.top()))]);
             queue_.pop();
             if (charts_[run.charts[0]].faces.empty() || charts_[run.charts[1]].faces.empty()) continue;
             if (!try_to_join(run)) continue;
@@ -73,13 +73,12 @@ class Joiner {
 
   private:
     /// The longest visible run comes first, then the longest, then the one that was found first.
-    using Claim = std::tuple<float, float, int64_t, size_t>;
+    using Claim = std::tuple<float, float, int64_t>;  // visible and whole length, less the run's number
 
     void offer(Run run) {
         if (!is_worth_a_try(run)) return;
         const auto number = static_cast<int64_t>(runs_.size());
-        queue_.emplace(static_cast<float>(run.length.visible), static_cast<float>(run.length.all), -number,
-                       runs_.size());
+        queue_.emplace(static_cast<float>(run.length.visible), static_cast<float>(run.length.all), -number);
         runs_.push_back(std::move(run));
     }
 
@@ -100,7 +99,7 @@ class Joiner {
         const double most = charts_[a].need + (a == b ? 0 : charts_[b].need) + worth_of(run.length, area);
         const double stretch = std::max(1.0, std::sqrt(most / area));
         constexpr double slack = 2.5;
-        const double energy = 4 + slack * 0.4 * (stretch - 1) * (stretch - 1);
+        const double energy = 4 + slack * energy_of_stretch * (stretch - 1) * (stretch - 1);
         return {std::min(settings_.bound.energy, energy), std::min(settings_.bound.stretch, stretch)};
     }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "baker/unwrap/union_find.h"
+
 namespace surimi {
 namespace {
 
@@ -11,11 +13,6 @@ constexpr uint32_t no_number = UINT32_MAX;
 
 uint32_t next(uint32_t k) {
     return k == 2 ? 0 : k + 1;
-}
-
-uint32_t find_root(std::vector<uint32_t>& parent, uint32_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
 }
 
 /// Corner of the surface's face at position k of its triangle in a patch, which starts with the first corner.
@@ -46,18 +43,13 @@ uint32_t edge_beyond(const FaceGraph& graph, const Patch& patch, uint32_t t, uin
 void make_vertices(const FaceGraph& graph, Patch& patch) {
     std::vector<uint32_t> fan(3 * patch.faces.size());
     std::iota(fan.begin(), fan.end(), 0u);
-    const auto unite = [&](uint32_t a, uint32_t b) {
-        a = find_root(fan, a);
-        b = find_root(fan, b);
-        fan[std::max(a, b)] = std::min(a, b);
-    };
     for (uint32_t t = 0; t < patch.faces.size(); ++t) {
         for (uint32_t k = 0; k < 3; ++k) {
             const uint32_t beyond = patch.neighbours[t][k];
             if (beyond == no_face || beyond < t) continue;
             const uint32_t start = edge_beyond(graph, patch, t, k);
-            unite(3 * t + k, 3 * beyond + next(start));
-            unite(3 * t + next(k), 3 * beyond + start);
+            unite(fan, 3 * t + k, 3 * beyond + next(start));
+            unite(fan, 3 * t + next(k), 3 * beyond + start);
         }
     }
     std::vector<uint32_t> vertex(fan.size(), no_number);

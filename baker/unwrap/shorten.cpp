@@ -16,24 +16,16 @@ constexpr double filled_share = 0.8;
 constexpr double easy_length = 0.9;
 constexpr uint32_t most_parts = 8;
 
-Vec2 centroid(const FlatChart& chart, uint32_t t) {
-    const auto& c = chart.triangles[t];
-    return (chart.points[c[0]] + chart.points[c[1]] + chart.points[c[2]]) / 3.0;
-}
-
 /// How far along its longer direction each triangle lies, from 0 to 1: along the box of a compact chart, along the
 /// surface in a bent one.
 std::vector<double> progress_along(const FlatChart& chart, const std::vector<std::array<uint32_t, 3>>& neighbours,
                                    bool is_bent) {
     const auto count = static_cast<uint32_t>(chart.triangles.size());
     std::vector<double> along(count);
-    const size_t axis = chart.extent.x >= chart.extent.y ? 0 : 1;
-    for (uint32_t t = 0; t < count; ++t)
-        along[t] =
-            centroid(chart, t)[static_cast<glm::length_t>(axis)] / chart.extent[static_cast<glm::length_t>(axis)];
+    const std::vector<Vec3> centroids = centroids_of(chart);
+    const glm::length_t axis = chart.extent.x >= chart.extent.y ? 0 : 1;
+    for (uint32_t t = 0; t < count; ++t) along[t] = centroids[t][axis] / chart.extent[axis];
     if (!is_bent) return along;
-    std::vector<Vec3> centroids;
-    for (uint32_t t = 0; t < count; ++t) centroids.emplace_back(centroid(chart, t), 0.0);
     const uint32_t end = walk_from({0}, neighbours, centroids).last;
     const Walk walk = walk_from({end}, neighbours, centroids);
     const auto whole = static_cast<double>(walk.distance[walk.last]);

@@ -47,16 +47,12 @@ void check_settings(const Scene& scene, const UnwrapSettings& settings) {
 }
 
 /// About how many texels each surface will have.
-std::vector<double> expected_texels(const Scene& scene, const UnwrapSettings& settings) {
-    std::vector<double> areas(scene.surfaces.size(), 0.0);
+std::vector<double> expected_texels(const std::vector<FaceGraph>& graphs, const UnwrapSettings& settings) {
+    std::vector<double> areas;
     double whole = 0;
-    for (size_t s = 0; s < areas.size(); ++s) {
-        const Surface& surface = scene.surfaces[s];
-        for (const auto& t : surface.triangles) {
-            const Vec3& a = surface.positions[t[0]];
-            areas[s] += 0.5 * glm::length(area_normal(a, surface.positions[t[1]], surface.positions[t[2]]));
-        }
-        whole += areas[s];
+    for (const FaceGraph& graph : graphs) {
+        areas.push_back(std::accumulate(graph.areas.begin(), graph.areas.end(), 0.0));
+        whole += areas.back();
     }
     const double map = static_cast<double>(settings.width) * settings.height * settings.atlases;
     const double density =
@@ -68,10 +64,10 @@ std::vector<double> expected_texels(const Scene& scene, const UnwrapSettings& se
 void cut_scene(const Scene& scene, const UnwrapSettings& settings, const Progress& progress, Work& work) {
     work.graphs.resize(scene.surfaces.size());
     std::vector<std::vector<FlatChart>> charts(scene.surfaces.size());
-    const std::vector<double> texels = expected_texels(scene, settings);
+    parallel_for(scene.surfaces.size(), 1, [&](size_t s) { work.graphs[s] = build_face_graph(scene.surfaces[s]); });
+    const std::vector<double> texels = expected_texels(work.graphs, settings);
     parallel_stage("charts", scene.surfaces.size(), 1, progress, [&](size_t begin, size_t end) {
         for (size_t s = begin; s < end; ++s) {
-            work.graphs[s] = build_face_graph(scene.surfaces[s]);
             charts[s] = cut_into_charts(work.graphs[s], cut_settings(settings, texels[s]), progress);
             for (FlatChart& chart : charts[s]) chart.surface = static_cast<uint32_t>(s);
         }
@@ -93,11 +89,8 @@ std::vector<FlatChart> take_apart(const FaceGraph& graph, const FlatChart& chart
             slivers.back().surface = chart.surface;
         }
     } else {
-        std::vector<Vec3> centroids;
-        for (const auto& t : chart.triangles)
-            centroids.emplace_back((chart.points[t[0]] + chart.points[t[1]] + chart.points[t[2]]) / 3.0, 0.0);
         const auto& apart = rounded.overlapping[rounded.overlapping.size() / 2];
-        const std::vector<uint8_t> sides = split_between(neighbours_of(chart), centroids, apart);
+        const std::vector<uint8_t> sides = split_between(neighbours_of(chart), centroids_of(chart), apart);
         parts.assign(sides.begin(), sides.end());
     }
     std::vector<FlatChart> pieces = divide(graph, chart, parts);
