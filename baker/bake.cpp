@@ -64,6 +64,7 @@ Bake bake(const Scene& scene, const BakeSettings& settings, const Progress& prog
     result.warnings.insert(result.warnings.end(), result.atlas.warnings.begin(), result.atlas.warnings.end());
     stopwatch.finish("rays");
 
+    const Silhouettes silhouettes;
     result.pages.resize(texels.size());
     for (BakedPage& page : result.pages)  // unused channels stay 1
         page.map.visibility = Image<Vec3f>(result.atlas.width, result.atlas.height, Vec3f(1));
@@ -71,9 +72,9 @@ Bake bake(const Scene& scene, const BakeSettings& settings, const Progress& prog
         const Monitor& monitor = scene.monitors[m];
         const auto c = static_cast<size_t>(monitor.channel);
         for (size_t p = 0; p < texels.size(); ++p) {
-            const Gathered gathered =
-                gather(scene, result.atlas, texels[p], rays, m, settings.gather, part_of(progress, p, texels.size()));
-            stopwatch.finish("light from " + monitor.name, gathered.rays);
+            const Gathered gathered = gather(scene, result.atlas, texels[p], rays, silhouettes, m, settings.gather,
+                                             part_of(progress, p, texels.size()));
+            stopwatch.finish("light from " + monitor.name, gathered.statistics.rays());
 
             BakedPage& page = result.pages[p];
             Channel channel = visibility_channel(texels[p], gathered.estimates);

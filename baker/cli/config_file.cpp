@@ -178,8 +178,8 @@ void check_ranges(const Config& config, const std::string& source) {
     require(unwrap.mips >= 0 && unwrap.mips <= 8, "mips must be from 0 to 8");
     require(unwrap.atlases >= 1 && unwrap.atlases <= 16, "atlases must be from 1 to 16");
     require(unwrap.stretch > 1 && unwrap.stretch <= 10, "stretch must be above 1 and at most 10");
-    require(config.bake.gather.samples >= 1 && config.bake.gather.samples <= 1 << 20,
-            "samples must be from 1 to 1048576");
+    require(config.bake.gather.samples >= 0 && config.bake.gather.samples <= 1 << 20,
+            "samples must be from 0 (as many as the error takes) to 1048576");
     require(config.threads >= 0 && config.threads <= 4096, "threads must be from 0 (all cores) to 4096");
 }
 

@@ -80,17 +80,24 @@ IrradianceEstimate gather_texel(const Shared& shared, const Texel& texel, size_t
     // Variance of the ratio by linearisation (M7), as if samples were independent: stratification only lowers it.
     const double variance = (seen_squared * (1 - 2 * visibility) + all_squared * visibility * visibility) / (all * all);
     return {static_cast<float>(unshadowed), static_cast<float>(unshadowed * visibility),
-            static_cast<float>(std::sqrt(std::max(0.0, variance)))};
+            static_cast<float>(std::sqrt(std::max(0.0, variance))), TexelMethod::monte_carlo};
 }
 
 }  // namespace
 
-Gathered gather(const Scene& scene, const Atlas& atlas, const Texels& texels, const RayScene& rays, size_t monitor,
-                const GatherSettings& settings, const Progress& progress) {
+size_t GatherStatistics::rays() const {
+    size_t sum = 0;
+    for (const OfMethod& method : methods) sum += method.rays;
+    return sum;
+}
+
+Gathered gather(const Scene& scene, const Atlas& atlas, const Texels& texels, const RayScene& rays, const Silhouettes&,
+                size_t monitor, const GatherSettings& settings, const Progress& progress) {
     Shared shared{
         scene,         atlas, texels, rays, scene.monitors[monitor], monitor, MonitorSampler(scene.monitors[monitor]),
         settings.seed, {}};
-    for (int i = 0; i < settings.samples; ++i) shared.sobol.push_back(sobol::point(static_cast<uint32_t>(i)));
+    for (int i = 0; i < (settings.samples > 0 ? settings.samples : 256); ++i)
+        shared.sobol.push_back(sobol::point(static_cast<uint32_t>(i)));
 
     constexpr size_t grain = 256;  // texels; a few milliseconds of rays
     Gathered result;
@@ -101,7 +108,8 @@ Gathered gather(const Scene& scene, const Atlas& atlas, const Texels& texels, co
                        for (size_t i = begin; i < end; ++i)
                            result.estimates[i] = gather_texel(shared, texels.texels[i], range_rays[begin / grain]);
                    });
-    for (const size_t count : range_rays) result.rays += count;
+    for (const size_t count : range_rays)
+        result.statistics.methods[static_cast<size_t>(TexelMethod::monte_carlo)].rays += count;
     return result;
 }
 

@@ -2,9 +2,12 @@
 // Texels -> shadowed and unshadowed irradiance from one monitor.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
+#include "baker/gather/settings.h"
+#include "baker/gather/silhouettes.h"
 #include "baker/texel/texels.h"
 #include "runtime/base/image.h"
 #include "runtime/base/parallel.h"
@@ -13,27 +16,55 @@
 
 namespace surimi {
 
-struct GatherSettings {
-    int samples = 256;  ///< rays for each texel and monitor that can see each other, at least 1
-    uint64_t seed = 0;
-};
-
 /// Texel averages at unit radiance. 0 <= shadowed <= unshadowed <= pi.
 struct IrradianceEstimate {
     float unshadowed = 0;  ///< E (M1), closed form
     float shadowed = 0;    ///< S (M2)
-    float error = 0;       ///< standard error of the visibility S / E, estimated from the samples
+    float error = 0;       ///< standard error of the visibility S / E, estimated
+    TexelMethod method = TexelMethod::none;
+};
+
+/// What was done how often, and the seconds of CPU that it took. Counts do not depend on the number of threads.
+struct GatherStatistics {
+    struct OfMethod {
+        size_t texels = 0;
+        size_t points = 0;  ///< of texels' surfaces
+        size_t rays = 0;
+        double seconds = 0;
+    };
+    std::array<OfMethod, texel_method_count> methods;  ///< by TexelMethod
+    size_t blocks = 0;                                 ///< of texels of one chart that the monitor may light
+    size_t shadowed_blocks = 0;                        ///< hidden by one facet
+    size_t open_blocks = 0;                            ///< no silhouette candidates
+    size_t candidates = 0;                             ///< silhouette candidates of all blocks
+    size_t segments = 0;                               ///< silhouettes on the monitor, of all points that split or scan
+    size_t failed_checks = 0;   ///< points whose cross-check rays disagreed; Monte Carlo took over
+    size_t refined_texels = 0;  ///< that needed more than one point
+    double query_seconds = 0;   ///< shafts, candidates, certificates
+    static constexpr int bins = 16;
+    std::array<size_t, bins> error_histogram{};  ///< texels by estimated error: bin 0 is exact, bin b < 2^(b - 15)
+    size_t above_error = 0;                      ///< texels whose estimate is above the error asked for
+
+    size_t rays() const;
+    void add(const GatherStatistics& other);
 };
 
 struct Gathered {
     std::vector<IrradianceEstimate> estimates;  ///< one for each of Texels::texels
-    size_t rays = 0;
+    GatherStatistics statistics;
 };
 
 /// Irradiance that `scene.monitors[monitor]` sends to every texel. Texels that it cannot light (all points behind the
 /// monitor or with the monitor below the horizon) get zeros and cost no ray. Each texel's random numbers depend on its
 /// page and index, the monitor's channel and the seed alone.
-Gathered gather(const Scene& scene, const Atlas& atlas, const Texels& texels, const RayScene& rays, size_t monitor,
-                const GatherSettings& settings, const Progress& progress);
+Gathered gather(const Scene& scene, const Atlas& atlas, const Texels& texels, const RayScene& rays,
+                const Silhouettes& silhouettes, size_t monitor, const GatherSettings& settings,
+                const Progress& progress);
+
+/// The same for one point of a surface, by splitting or scanlines as the settings say, for tests and studies.
+/// `segments` (if not null) gets the number of silhouettes on the monitor.
+IrradianceEstimate irradiance_at(const Scene& scene, const RayScene& rays, const Silhouettes& silhouettes,
+                                 size_t monitor, const SurfacePoint& point, const GatherSettings& settings,
+                                 size_t* segments = nullptr);
 
 }  // namespace surimi

@@ -127,6 +127,10 @@ RayScene::RayScene(const Scene& scene) : state_(std::make_unique<State>(scene)) 
 
 RayScene::~RayScene() = default;
 
+const Vec3& RayScene::center() const {
+    return state_->center;
+}
+
 Vec3 RayScene::ray_origin(const SurfacePoint& point) const {
     const Surface& surface = state_->scene.surfaces[point.triangle.surface];
     double magnitude = largest_component(point.position - state_->center);
@@ -164,6 +168,59 @@ bool RayScene::is_occluded(const Vec3& origin, const Vec3& target, size_t monito
     rtcInitIntersectContext(&context);
     rtcOccluded1(state_->handle, &context, &ray);
     return ray.tfar < 0;
+}
+
+void RayPacket::add(const Vec3& origin, const Vec3& target, double ray_end) {
+    const Vec3 direction = target - origin;
+    origin_x[size] = static_cast<float>(origin.x);
+    origin_y[size] = static_cast<float>(origin.y);
+    origin_z[size] = static_cast<float>(origin.z);
+    direction_x[size] = static_cast<float>(direction.x);
+    direction_y[size] = static_cast<float>(direction.y);
+    direction_z[size] = static_cast<float>(direction.z);
+    end[size] = static_cast<float>(ray_end);
+    ++size;
+}
+
+uint32_t RayScene::occluded(const RayPacket& packet, size_t monitor) const {
+    alignas(64) std::array<int, RayPacket::capacity> valid;
+    RTCRay16 rays;
+    for (size_t i = 0; i < RayPacket::capacity; ++i) {
+        const bool is_ray = i < packet.size;
+        valid[i] = is_ray ? -1 : 0;
+        if (!is_ray) continue;
+        rays.org_x[i] = packet.origin_x[i];
+        rays.org_y[i] = packet.origin_y[i];
+        rays.org_z[i] = packet.origin_z[i];
+        rays.dir_x[i] = packet.direction_x[i];
+        rays.dir_y[i] = packet.direction_y[i];
+        rays.dir_z[i] = packet.direction_z[i];
+        rays.tnear[i] = 0;
+        rays.tfar[i] = packet.end[i];
+        rays.time[i] = 0;
+        rays.mask[i] = everything & ~(1u << monitor);
+        rays.id[i] = 0;
+        rays.flags[i] = 0;
+    }
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);  // incoherent: COHERENT hangs with AVX-512 (docs/decisions.md)
+    rtcOccluded16(valid.data(), state_->handle, &context, &rays);
+    uint32_t hits = 0;
+    for (size_t i = 0; i < packet.size; ++i) hits |= rays.tfar[i] < 0 ? 1u << i : 0u;
+    return hits;
+}
+
+std::optional<TriangleRef> RayScene::closest_occluder(const Vec3& origin, const Vec3& target, double end,
+                                                      size_t monitor) const {
+    RTCRayHit query;
+    set_ray(query.ray, origin, target - origin, end, everything & ~(1u << monitor));
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(state_->handle, &context, &query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    return TriangleRef{query.hit.geomID, query.hit.primID};
 }
 
 std::optional<Hit> RayScene::closest_hit(const Vec3& origin, const Vec3& direction) const {

@@ -2,6 +2,7 @@
 // Rays against a scene. The only room that sees Embree.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -9,6 +10,17 @@
 #include "runtime/scene/surface_point.h"
 
 namespace surimi {
+
+/// Up to sixteen rays that are traced together. Float, relative to RayScene::center().
+struct RayPacket {
+    static constexpr size_t capacity = 16;
+    alignas(64) std::array<float, capacity> origin_x, origin_y, origin_z, direction_x, direction_y, direction_z, end;
+    size_t size = 0;
+
+    /// A ray that ends at `end` times the way from `origin` to `target`, both relative to RayScene::center(). There
+    /// must be room.
+    void add(const Vec3& origin, const Vec3& target, double end);
+};
 
 struct Hit {
     TriangleRef triangle;  ///< surface == Scene::surfaces.size() + m: a panel of monitor m, which has no surface
@@ -29,10 +41,21 @@ class RayScene {
     /// farther (M5). The distance covers the rounding of vertices and origin to float, relative to the scene's centre.
     Vec3 ray_origin(const SurfacePoint& point) const;
 
+    /// What places are relative to before they are rounded to float: the middle of the scene's bounds.
+    const Vec3& center() const;
+
     /// Is anything between `origin` (see ray_origin) and `target`, a point on monitor `monitor`? Surfaces of that
     /// monitor do not count, nor does what lies within 1e-4 of the distance before the target. Alpha-masked holes let
     /// light through; blended and transmissive materials block it.
     bool is_occluded(const Vec3& origin, const Vec3& target, size_t monitor) const;
+
+    /// Bit i: ray i of the packet meets something that is not monitor `monitor`. Alpha-masked holes let light through.
+    uint32_t occluded(const RayPacket& packet, size_t monitor) const;
+
+    /// The nearest triangle between `origin` and `end` times the way to `target` (relative to center()) that is not
+    /// monitor `monitor`.
+    std::optional<TriangleRef> closest_occluder(const Vec3& origin, const Vec3& target, double end,
+                                                size_t monitor) const;
 
     /// Nearest surface along a ray; alpha-masked holes are not hit.
     std::optional<Hit> closest_hit(const Vec3& origin, const Vec3& direction) const;

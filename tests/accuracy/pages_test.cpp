@@ -89,9 +89,9 @@ TEST(BakePages, PagesHaveRandomNumbersOfTheirOwn) {
     test::add_box(scene, "Box", {0, 0.5, -1}, {0.5, 0.2, 0.1});
     const RayScene rays(scene);
     Atlas atlas = test::whole_map_atlas(scene, floor, 32);
-    const Gathered first = gather(scene, atlas, find_texels(scene, atlas, 0), rays, 0, {.samples = 16}, {});
+    const Gathered first = gather(scene, atlas, find_texels(scene, atlas, 0), rays, {}, 0, {.samples = 16}, {});
     for (SurfaceUv& surface : atlas.surfaces) surface.page = 1;
-    const Gathered second = gather(scene, atlas, find_texels(scene, atlas, 1), rays, 0, {.samples = 16}, {});
+    const Gathered second = gather(scene, atlas, find_texels(scene, atlas, 1), rays, {}, 0, {.samples = 16}, {});
     ASSERT_EQ(first.estimates.size(), second.estimates.size());
     size_t penumbra = 0;
     size_t different = 0;

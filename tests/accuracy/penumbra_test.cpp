@@ -65,7 +65,7 @@ void expect_exact_penumbra(const Stage& stage) {
     ASSERT_EQ(texels.texels.size(), static_cast<size_t>(size * size));
 
     const RayScene rays(stage.scene);
-    const Gathered gathered = gather(stage.scene, atlas, texels, rays, 0, {.samples = 1024, .seed = 3}, {});
+    const Gathered gathered = gather(stage.scene, atlas, texels, rays, {}, 0, {.samples = 1024, .seed = 3}, {});
     double normalised = 0, worst = 0;
     int penumbra = 0;
     for (int y = 0; y < size; ++y) {
@@ -118,8 +118,8 @@ TEST(Penumbra, ErrorFallsFasterThanTheSquareRootOfTheSamples_M6) {
     const Texels texels = find_texels(floor_only, atlas);
     const RayScene rays(stage.scene);
     const auto rms = [&](int samples) {
-        const Gathered a = gather(stage.scene, atlas, texels, rays, 0, {.samples = samples, .seed = 1}, {});
-        const Gathered b = gather(stage.scene, atlas, texels, rays, 0, {.samples = samples, .seed = 2}, {});
+        const Gathered a = gather(stage.scene, atlas, texels, rays, {}, 0, {.samples = samples, .seed = 1}, {});
+        const Gathered b = gather(stage.scene, atlas, texels, rays, {}, 0, {.samples = samples, .seed = 2}, {});
         double sum = 0;
         for (size_t i = 0; i < a.estimates.size(); ++i) {
             const auto v = [](const IrradianceEstimate& e) { return static_cast<double>(e.shadowed / e.unshadowed); };
