@@ -92,9 +92,9 @@ bool overlap(const Box& a, const Box& b) {
     return a.low.x < b.high.x && b.low.x < a.high.x && a.low.y < b.high.y && b.low.y < a.high.y;
 }
 
-std::vector<PlacedLabel> place_labels(std::span<const LabelledLine> lines, size_t count, const Box& area) {
+std::vector<PlacedLabel> place_labels(std::span<const LabelledLine> lines, const Box& area) {
     std::vector<PlacedLabel> placed;
-    for (size_t i = 0; i < count; ++i) placed.push_back(best_place(lines, i, area, placed));
+    for (size_t i = 0; i < lines.size(); ++i) placed.push_back(best_place(lines, i, area, placed));
     return placed;
 }
 

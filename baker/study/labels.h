@@ -28,9 +28,9 @@ struct PlacedLabel {
     bool needs_leader = false;  ///< too far from it to belong to it without a stroke
 };
 
-/// Places for the labels of the first `count` lines, each with a point, within `area`, none on another while there is
-/// room. Of all places around all points of its line, near ones first, the one that covers fewest points and strokes of
-/// any line. Deterministic; cost is lines^2 * points^2.
-std::vector<PlacedLabel> place_labels(std::span<const LabelledLine> lines, size_t count, const Box& area);
+/// A place for every line's label (a line has at least one point) within `area`, none on another while there is room.
+/// Of all places around all points of its line, near ones first, the one that covers fewest points and strokes of any
+/// line. The first choose first. Deterministic; the cost is that of lines^2 * points^2.
+std::vector<PlacedLabel> place_labels(std::span<const LabelledLine> lines, const Box& area);
 
 }  // namespace surimi

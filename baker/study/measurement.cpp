@@ -50,18 +50,22 @@ double reference_error(std::span<const Reference> references) {
 
 void set_errors(Measurement& measurement, std::span<const double> values, std::span<const Reference> references) {
     if (values.empty()) return;
+    const double noise = reference_error(references);
     std::vector<double> errors;
-    double sum = 0;
+    double sum = 0, sum_of_squares = 0;  // of squared errors without the reference's share
     for (size_t i = 0; i < values.size(); ++i) {
-        errors.push_back(std::abs(values[i] - references[i].visibility));
-        sum += errors.back() * errors.back();
+        const double error = std::abs(values[i] - references[i].visibility), own = references[i].error;
+        errors.push_back(std::max(0.0, error - 3 * std::max(own, noise)));
+        measurement.largest = std::max(measurement.largest, error);
+        sum += error * error - own * own;
+        sum_of_squares += std::pow(error * error - own * own, 2);
     }
     std::ranges::sort(errors);
     const auto count = static_cast<double>(errors.size());
-    const double noise = reference_error(references);
-    measurement.rmse = std::max(noise, std::sqrt(std::max(0.0, sum / count - noise * noise)));
+    const double mean = sum / count;
+    const double uncertainty = std::sqrt(std::max(0.0, sum_of_squares / count - mean * mean) / count);
+    measurement.rmse = std::sqrt(std::max(mean, uncertainty));
     measurement.p999 = errors[static_cast<size_t>(std::ceil(0.999 * count)) - 1];
-    measurement.largest = errors.back();
 }
 
 Measurement measure(const Subject& subject, const Estimator& estimator, double setup_seconds) {

@@ -19,8 +19,8 @@ struct Measurement {
     double value = 0;     ///< the number in it
     double seconds = 0;   ///< for each texel and monitor; what is done once for a map is spread over its lit texels
     double rays = 0;      ///< for each texel and monitor
-    double rmse = 0;      ///< of V, the reference's variance taken off; never less than the reference's own error
-    double p999 = 0;      ///< 99.9 % of the texels are within it
+    double rmse = 0;      ///< of V, the reference's variance taken off; never less than what the sample can tell from 0
+    double p999 = 0;      ///< 99.9 % of the texels are within it and three of the reference's standard errors
     double largest = 0;   ///< error, that of the reference included
 };
 

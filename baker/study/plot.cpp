@@ -90,11 +90,11 @@ Axes axes_of(const Study& study) {
             make_log_axis(least_rmse / 2.2, most_rmse * 1.4, frame.high.y, frame.low.y)};
 }
 
-std::string text_at(const Vec2& place, const char* attributes, const std::string& text) {
+std::string text_at(const Vec2& place, const std::string& attributes, const std::string& text) {
     return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" {}>{}</text>\n", place.x, place.y, attributes, escaped(text));
 }
 
-std::string line(const Vec2& a, const Vec2& b, const char* attributes) {
+std::string line(const Vec2& a, const Vec2& b, const std::string& attributes) {
     return fmt::format("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\" {}/>\n", a.x, a.y, b.x, b.y, attributes);
 }
 
@@ -104,7 +104,10 @@ std::string grid(const Axes& axes) {
         const double x = axes.seconds.at(tick.value);
         svg += line({x, frame.low.y}, {x, frame.high.y}, tick.is_decade ? "stroke=\"#ccc\"" : "stroke=\"#eee\"");
         svg += line({x, frame.high.y}, {x, frame.high.y + (tick.is_decade ? 7 : 4)}, "stroke=\"#444\"");
-        if (tick.is_decade) svg += text_at({x, frame.high.y + 22}, "text-anchor=\"middle\"", in_time_unit(tick.value));
+        if (tick.is_decade)
+            svg +=
+                text_at({x, frame.high.y + 22}, "text-anchor=\"middle\"",
+                        fmt::format("{:g} {}", tick.value / time_unit(tick.value).seconds, time_unit(tick.value).name));
     }
     for (const Tick& tick : ticks_of(axes.rmse)) {
         const double y = axes.rmse.at(tick.value);
@@ -117,13 +120,17 @@ std::string grid(const Axes& axes) {
                              frame.high.x, frame.high.y);
 }
 
-/// A horizontal line with what it means at its right end. Gives the label's box.
-std::string level(const Axes& axes, double rmse, const std::string& text, std::vector<LabelledLine>& lines) {
-    if (!(rmse > axes.rmse.low) || !(rmse < axes.rmse.high)) return "";
-    const double y = axes.rmse.at(rmse), size = letter_width * static_cast<double>(text.size());
-    for (double x = frame.high.x - size; x <= frame.high.x; x += 15) lines.push_back({{{x, y - 4}, {x, y - 11}}, {}});
-    return line({frame.low.x, y}, {frame.high.x, y}, "stroke=\"#666\" stroke-dasharray=\"3 4\"") +
-           text_at({frame.high.x - 4, y - 5}, "text-anchor=\"end\" fill=\"#555\" font-size=\"12\"", text);
+struct Level {
+    double rmse = 0;
+    std::string text;
+};
+
+/// The levels that lie within the axes.
+std::vector<Level> levels_of(const Study& study, const Axes& axes) {
+    std::vector<Level> levels = {{visible_error / 2, fmt::format("RMSE that --error {:g} promises", visible_error)},
+                                 {study.reference_error, "standard error of the reference"}};
+    std::erase_if(levels, [&](const Level& l) { return !(l.rmse > axes.rmse.low && l.rmse < axes.rmse.high); });
+    return levels;
 }
 
 std::string marker(const Vec2& p, const Style& style, const std::string& tooltip) {
@@ -154,13 +161,13 @@ std::string tooltip_of(const Series& series, const Measurement& m) {
                        in_time_unit(m.seconds), m.rays, m.rmse, m.p999);
 }
 
-std::string draw(const Series& series, const LabelledLine& points) {
+std::string draw(const Series& series, const std::vector<Vec2>& points) {
     const Style& style = style_of(series.id);
     std::string path, markers;
     size_t i = 0;
     for (const Measurement& m : series.points) {
         if (!is_drawn(m)) continue;
-        const Vec2& p = points.points[i++];
+        const Vec2& p = points[i++];
         path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", p.x, p.y);
         markers += marker(p, style, tooltip_of(series, m));
     }
@@ -170,21 +177,25 @@ std::string draw(const Series& series, const LabelledLine& points) {
            markers;
 }
 
-std::string name_line(const Series& series, const PlacedLabel& label) {
-    const Style& style = style_of(series.id);
+/// A text, its colour and whether it is bold.
+struct Name {
+    std::string text, color;
+    bool is_bold = false;
+};
+
+std::string name_line(const Name& name, const PlacedLabel& label) {
     const Vec2 middle = 0.5 * (label.box.low + label.box.high);
     std::string svg;
     if (label.needs_leader) {
         const Vec2 end = glm::clamp(label.anchor, label.box.low, label.box.high);
-        svg = line(label.anchor, end, fmt::format("stroke=\"{}\" stroke-width=\"0.8\"", style.color).c_str());
+        svg = line(label.anchor, end, fmt::format("stroke=\"{}\" stroke-width=\"0.8\"", name.color));
     }
     // A white rim keeps the text legible where a line passes behind it.
     return svg + text_at({middle.x, middle.y + 4.5},
                          fmt::format("text-anchor=\"middle\" fill=\"{}\" paint-order=\"stroke\" stroke=\"#fff\" "
                                      "stroke-width=\"4\" stroke-linejoin=\"round\" font-weight=\"{}\"",
-                                     style.color, style.stroke > 2 ? "bold" : "normal")
-                             .c_str(),
-                         series.label);
+                                     name.color, name.is_bold ? "bold" : "normal"),
+                         name.text);
 }
 
 std::string captions(const Study& study) {
@@ -202,25 +213,51 @@ std::string captions(const Study& study) {
            text_at({frame.low.x, height - 14}, "fill=\"#555\" font-size=\"12\"", second);
 }
 
-/// The series in pixels, and after them what else labels must not cover.
-std::string draw_all(const Study& study, const Axes& axes) {
+/// What is named in the plot: lines and texts, in the order in which they choose their places.
+struct Names {
     std::vector<LabelledLine> lines;
-    std::vector<const Series*> drawn;
-    for (const Series& series : study.series) {
-        LabelledLine points;
-        for (const Measurement& m : series.points)
-            if (is_drawn(m)) points.points.push_back(axes.at(m.seconds, m.rmse));
-        if (points.points.empty()) continue;
-        points.label_size = {letter_width * static_cast<double>(series.label.size()), font_size + 2};
-        lines.push_back(points);
-        drawn.push_back(&series);
+    std::vector<Name> names;
+
+    void add(std::vector<Vec2> points, const Name& name) {
+        // Counted in characters: UTF-8 has more bytes, of which all but the first begin with 10.
+        const auto letters = std::ranges::count_if(name.text, [](char c) { return (c & 0xc0) != 0x80; });
+        const double bold = name.is_bold ? 1.08 : 1;
+        lines.push_back({std::move(points), {bold * letter_width * static_cast<double>(letters), font_size + 2}});
+        names.push_back(name);
     }
-    std::vector<LabelledLine> obstacles = lines;
-    std::string svg = level(axes, visible_error / 2, "RMSE that --error 0.004 promises", obstacles);
-    svg += level(axes, study.reference_error, "error of the reference", obstacles);
-    for (size_t i = lines.size(); i-- > 0;) svg += draw(*drawn[i], lines[i]);  // the first on top
-    const std::vector<PlacedLabel> labels = place_labels(obstacles, lines.size(), frame);
-    for (size_t i = 0; i < lines.size(); ++i) svg += name_line(*drawn[i], labels[i]);
+};
+
+std::string draw_levels(const Study& study, const Axes& axes, Names& names) {
+    std::string svg;
+    for (const Level& level : levels_of(study, axes)) {
+        const double y = axes.rmse.at(level.rmse);
+        svg += line({frame.low.x, y}, {frame.high.x, y}, "stroke=\"#666\" stroke-dasharray=\"3 4\"");
+        std::vector<Vec2> points;
+        for (double x = frame.low.x; x <= frame.high.x; x += 20) points.emplace_back(x, y);
+        names.add(points, {level.text, "#555"});
+    }
+    return svg;
+}
+
+std::string draw_all(const Study& study, const Axes& axes) {
+    Names names;
+    std::string svg;
+    for (const Series& series : study.series) {
+        std::vector<Vec2> points;
+        for (const Measurement& m : series.points)
+            if (is_drawn(m)) points.push_back(axes.at(m.seconds, m.rmse));
+        if (points.empty()) continue;
+        svg = draw(series, points) + svg;  // the first on top
+        names.add(points, {series.label, style_of(series.id).color, style_of(series.id).stroke > 2});
+    }
+    svg = draw_levels(study, axes, names) + svg;
+    for (const Series& series : study.series)
+        for (const Measurement& m : series.points)
+            if (series.id == automatic_id && is_drawn(m))
+                names.add({axes.at(m.seconds, m.rmse)}, {m.setting, style_of(series.id).color});
+    const Box inside{frame.low + 4.0, frame.high - 4.0};
+    const std::vector<PlacedLabel> labels = place_labels(names.lines, inside);
+    for (size_t i = 0; i < labels.size(); ++i) svg += name_line(names.names[i], labels[i]);
     return svg;
 }
 

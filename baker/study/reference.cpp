@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "baker/study/shadow_rays.h"
+#include "baker/study/solid_angle.h"
 
 namespace surimi {
 namespace {
@@ -47,7 +48,13 @@ Sums jittered_set(const Receiver& receiver, size_t n, Pcg32& random) {
     for (size_t i = 0; i < partner.size(); ++i) {
         const double u = jittered(partner[i] % n), v = jittered(partner[i] / n);
         const double s = jittered(i % n), t = jittered(i / n);
-        rays.add(receiver.surface.sample(u, v), receiver.light.sampler.sample(s, t));
+        const SurfacePoint from = receiver.surface.sample(u, v);
+        const SeenMonitor monitor(receiver.light.monitor(), from.position);
+        if (!(monitor.solid_angle() > 0)) continue;
+        double weight = 0;
+        const LightPoint to = monitor.sample(s, t, weight);
+        weight *= glm::dot(normalize_or(to.position - from.position, -from.normal), from.normal);
+        if (weight > 0) rays.add(from, to, weight);
     }
     const double seen = rays.seen();
     return {seen, rays.all()};
