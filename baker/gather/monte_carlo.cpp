@@ -46,16 +46,6 @@ uint32_t partner_of(uint32_t m, DigitOrder order) {
     return partner;
 }
 
-/// Irradiance weight of a monitor point for a surface point, up to the monitor's area: cos cos / r^2.
-double transfer(const SurfacePoint& point, const LightPoint& light, bool two_sided) {
-    const Vec3 d = light.position - point.position;
-    const double r2 = glm::dot(d, d);
-    const double receiver = glm::dot(d, point.normal);
-    const double emitter = two_sided ? std::abs(glm::dot(d, light.normal)) : -glm::dot(d, light.normal);
-    if (!(receiver > 0) || !(emitter > 0)) return 0;
-    return receiver * emitter / (r2 * r2);
-}
-
 /// The samples of one texel so far. On the stack: a texel costs no allocation.
 struct Samples {
     /// The weight of each (M6), negative where the light is blocked.
@@ -93,26 +83,61 @@ void scramble_lanes(const SamplePoints& points, const Scrambling& seeds, size_t 
     }
 }
 
-/// Samples [first, first + count), at most sixteen of them.
-void take(const MonteCarloTask& task, const TexelSurface& surface, const Numbers& numbers, size_t count,
+/// A place on the texel, as far as rays and weights need it.
+struct Place {
+    Vec3 position{0};
+    Vec3 normal{0, 0, 1};  // unit, for shading
+};
+
+/// What stays the same from sample to sample while they fall on one piece of the texel; most texels have but one.
+struct OnPiece {
+    const TexelSurface::Piece* piece = nullptr;
+    Vec3 to_origin{0};  // from a point to where its rays start, relative to RayScene::center()
+};
+
+Place place_on(const MonteCarloTask& task, const TexelSurface& surface, double u, double v, OnPiece& on) {
+    const TexelSurface::Piece& piece = surface.choose(u, v);
+    const Place place{piece.position.at(u, v), piece.unit_normal(u, v)};
+    if (on.piece != &piece) {
+        const SurfacePoint point{piece.triangle, piece.barycentric.at(u, v), place.position, place.normal,
+                                 piece.geometric_normal};
+        on = {&piece, task.rays.ray_origin(point) - place.position - task.rays.center()};
+    }
+    return place;
+}
+
+/// Irradiance weight of a monitor point for a surface point, up to the monitor's area: cos cos / r^2. `d` leads from
+/// one to the other.
+double transfer(const Vec3& d, const Vec3& normal, double emitter) {
+    const double r2 = glm::dot(d, d);
+    const double receiver = glm::dot(d, normal);
+    if (!(receiver > 0) || !(emitter > 0)) return 0;
+    return receiver * emitter / (r2 * r2);
+}
+
+/// The next `count` samples, at most sixteen.
+void take(const MonteCarloTask& task, const TexelSurface& surface, const Numbers& numbers, size_t count, OnPiece& on,
           Waiting& waiting, Samples& samples) {
     for (size_t i = 0; i < count; ++i) {
-        const SurfacePoint from = surface.sample(numbers[0][i], numbers[1][i]);
+        const Place from = place_on(task, surface, numbers[0][i], numbers[1][i], on);
         const LightPoint to = task.sampler.sample(numbers[2][i], numbers[3][i]);
-        const double weight = transfer(from, to, task.sampler.is_two_sided());
+        const Vec3 d = to.position - from.position;
+        const double over_panel = -glm::dot(d, to.normal);
+        const double weight = transfer(d, from.normal, task.sampler.is_two_sided() ? std::abs(over_panel) : over_panel);
         const size_t index = samples.count++;
         samples.signed_weights[index] = -static_cast<float>(weight);
         if (!(weight > 0)) continue;
         // Light that the shading normal would admit but the surface itself blocks: occluded without a ray.
-        if (!(glm::dot(to.position - from.position, from.geometric_normal) > 0)) continue;
-        const Vec3 origin = task.rays.ray_origin(from);
-        const double height = std::abs(glm::dot(origin - to.position, to.normal));
+        if (!(glm::dot(d, on.piece->geometric_normal) > 0)) continue;
+        const Vec3 origin = from.position + on.to_origin;
+        const Vec3 target = to.position - task.rays.center();
+        const double height = std::abs(glm::dot(target - origin, to.normal));
         if (!(height > task.clearance)) {
             samples.signed_weights[index] *= -1;
             continue;
         }
         waiting.sample[waiting.packet.size] = index;
-        waiting.packet.add(origin - task.rays.center(), to.position - task.rays.center(), 1 - task.clearance / height);
+        waiting.packet.add(origin, target, 1 - task.clearance / height);
         if (waiting.packet.size == lanes) trace(task, waiting, samples);
     }
 }
@@ -121,10 +146,11 @@ void extend(const MonteCarloTask& task, const TexelSurface& surface, const Scram
             Samples& samples) {
     Waiting waiting;
     Numbers numbers;
+    OnPiece on;
     const size_t before = samples.count;
     for (size_t first = before; first < count; first += lanes) {
         scramble_lanes(task.points, seeds, first, numbers);
-        take(task, surface, numbers, std::min(lanes, count - first), waiting, samples);
+        take(task, surface, numbers, std::min(lanes, count - first), on, waiting, samples);
     }
     if (waiting.packet.size > 0) trace(task, waiting, samples);
     for (size_t i = before; i < count; ++i) {
@@ -135,45 +161,58 @@ void extend(const MonteCarloTask& task, const TexelSurface& surface, const Scram
     }
 }
 
-/// Deviation of one sample from the ratio: w (v - V).
-double deviation(float signed_weight, double visibility) {
-    return std::abs(signed_weight) * ((signed_weight > 0 ? 1.0 : 0.0) - visibility);
+/// Deviations of the samples from the ratio: w (v - V).
+using Deviations = std::array<float, SamplePoints::capacity>;
+
+void find_deviations(const Samples& samples, Deviations& deviations) {
+    const auto visibility = static_cast<float>(samples.visibility());
+    for (size_t i = 0; i < samples.count; ++i) {
+        const float weight = samples.signed_weights[i];
+        deviations[i] = std::max(weight, 0.f) - std::abs(weight) * visibility;
+    }
 }
 
-/// Sum of the squared differences of deviations between the samples of a cell; the samples are nets of `net` points.
-double paired_differences(const Samples& samples, size_t net, uint32_t partner) {
-    const double visibility = samples.visibility();
-    const size_t highest = std::bit_floor(size_t{partner});
+double sum_of_squares(std::span<const float> deviations) {
     double sum = 0;
-    for (size_t first = 0; first < samples.count; first += net)
-        for (size_t i = 0; i < net; ++i) {
-            if (i & highest) continue;
-            const double difference = deviation(samples.signed_weights[first + i], visibility) -
-                                      deviation(samples.signed_weights[first + (i ^ partner)], visibility);
-            sum += difference * difference;
-        }
+    for (const float z : deviations) sum += static_cast<double>(z) * static_cast<double>(z);
     return sum;
+}
+
+/// Sum of the squared differences between the samples of a cell.
+double paired_differences(std::span<const float> deviations, uint32_t partner) {
+    const size_t half = std::bit_floor(size_t{partner});  // the first of a pair has this bit clear
+    std::array<double, 2> sums{};                         // two chains of additions, so that they overlap
+    for (size_t first = 0; first < deviations.size(); first += 2 * half)
+        for (size_t i = 0; i < half; ++i) {
+            // first + i has the bits of a place in its net, and nets start at multiples of their size.
+            const float difference = deviations[first + i] - deviations[(first + i) ^ partner];
+            sums[i & 1u] += static_cast<double>(difference) * static_cast<double>(difference);
+        }
+    return sums[0] + sums[1];
+}
+
+/// Variance of the sum of all deviations: the smallest of what independent samples would have (M7) and what each way to
+/// cut space into cells says (M52).
+double variance_of_sum(const SamplePoints& points, const Samples& samples) {
+    if (!(samples.seen > 0) || !(samples.seen < samples.all)) return 0;
+    Deviations all;
+    find_deviations(samples, all);
+    const auto deviations = std::span<const float>(all).first(samples.count);
+    double variance = sum_of_squares(deviations);
+    // A count that is no power of two is a row of smaller nets.
+    const size_t net = samples.count & (~samples.count + 1);
+    if (net == 1) return variance;
+    for (const uint32_t partner : points.partner[static_cast<size_t>(std::countr_zero(net))])
+        variance = std::min(variance, paired_differences(deviations, partner));
+    return variance;
 }
 
 /// Standard error of the ratio (M52).
 double standard_error(const SamplePoints& points, const Samples& samples) {
     if (!(samples.all > 0)) return 1;
-    double variance = 0;
-    if (samples.seen > 0 && samples.seen < samples.all) {
-        const double visibility = samples.visibility();
-        for (size_t i = 0; i < samples.count; ++i) {
-            const double z = deviation(samples.signed_weights[i], visibility);
-            variance += z * z;  // as of independent samples (M7)
-        }
-        // A count that is no power of two is a row of smaller nets.
-        const size_t net = samples.count & (~samples.count + 1);
-        if (net > 1)
-            for (const uint32_t partner : points.partner[static_cast<size_t>(std::countr_zero(net))])
-                variance = std::min(variance, paired_differences(samples, net, partner));
-    }
     // What no sample has met may be there, about as large as one sample stands for.
     const double unseen = samples.largest;
-    return std::min(1.0, std::sqrt(variance + unseen * unseen) / samples.all);
+    return std::min(1.0, std::sqrt(variance_of_sum(points, samples) + unseen * unseen) / samples.all);
 }
 
 }  // namespace
