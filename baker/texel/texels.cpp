@@ -162,7 +162,10 @@ void TexelSurface::add_piece(const TriangleRef& triangle, double area, bool is_s
         normalize_or(area_normal(surface.positions[i], surface.positions[j], surface.positions[k]), surface.normals[i]);
     piece.barycentric = barycentric;
     piece.position = interpolated(surface.positions);
-    piece.normal = interpolated(surface.normals);
+    const Vec3 &a = surface.normals[i], &b = surface.normals[j], &c = surface.normals[k];
+    piece.has_one_normal = a == b && b == c;
+    piece.normal = piece.has_one_normal ? Affine{normalize_or(a, piece.geometric_normal), Vec3(0), Vec3(0)}
+                                        : interpolated(surface.normals);
 }
 
 void TexelSurface::add(const TriangleRef& triangle, const Vec2& corner) {
@@ -193,23 +196,30 @@ void TexelSurface::add(const TriangleRef& triangle, const Vec2& corner) {
     }
 }
 
-SurfacePoint TexelSurface::sample(double u, double v) const {
-    const double target = u * total_;
+const TexelSurface::Piece& TexelSurface::choose(double& u, double& v) const {
     const Piece* piece = &pieces_.front();
-    double before = 0;
-    while (piece != &pieces_.back() && !(target < piece->cumulative)) before = (piece++)->cumulative;
-    // The number that chose the piece is stretched to serve again within it: strata survive.
-    u = std::clamp((target - before) / (piece->cumulative - before), 0.0, 1.0);
+    if (pieces_.size() > 1) {
+        const double target = u * total_;
+        double before = 0;
+        while (piece != &pieces_.back() && !(target < piece->cumulative)) before = (piece++)->cumulative;
+        // The number that chose the piece is stretched to serve again within it: strata survive.
+        u = std::clamp((target - before) / (piece->cumulative - before), 0.0, 1.0);
+    }
     if (!piece->is_square) {
         u = std::sqrt(u);  // edge_u runs to the second corner, edge_v from there to the third
         v *= u;
     }
-    return point_of(*piece, {u, v});
+    return *piece;
+}
+
+SurfacePoint TexelSurface::sample(double u, double v) const {
+    const Piece& piece = choose(u, v);
+    return point_of(piece, {u, v});
 }
 
 SurfacePoint TexelSurface::point_of(const Piece& piece, const Vec2& uv) {
     return {piece.triangle, piece.barycentric.at(uv.x, uv.y), piece.position.at(uv.x, uv.y),
-            normalize_or(piece.normal.at(uv.x, uv.y), piece.geometric_normal), piece.geometric_normal};
+            piece.unit_normal(uv.x, uv.y), piece.geometric_normal};
 }
 
 SurfacePoint TexelSurface::center() const {
