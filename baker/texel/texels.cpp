@@ -214,8 +214,40 @@ const TexelSurface::Piece& TexelSurface::choose(double& u, double& v) const {
 
 SurfacePoint TexelSurface::sample(double u, double v) const {
     const Piece& piece = choose(u, v);
-    return {piece.triangle, piece.barycentric.at(u, v), piece.position.at(u, v), piece.unit_normal(u, v),
-            piece.geometric_normal};
+    return point_of(piece, {u, v});
+}
+
+SurfacePoint TexelSurface::point_of(const Piece& piece, const Vec2& uv) {
+    return {piece.triangle, piece.barycentric.at(uv.x, uv.y), piece.position.at(uv.x, uv.y),
+            piece.unit_normal(uv.x, uv.y), piece.geometric_normal};
+}
+
+SurfacePoint TexelSurface::center() const {
+    const auto middle_of = [](const Piece& piece) {
+        return point_of(piece, piece.is_square ? Vec2(0.5) : Vec2(2.0 / 3, 1.0 / 3));
+    };
+    if (pieces_.size() == 1) return middle_of(pieces_.front());
+    Vec3 position(0), normal(0);
+    double before = 0;
+    for (const Piece& piece : pieces_) {
+        const double share = (piece.cumulative - before) / total_;
+        before = piece.cumulative;
+        const SurfacePoint middle = middle_of(piece);
+        position += share * middle.position;
+        normal += share * middle.normal;
+    }
+    SurfacePoint best = middle_of(pieces_.front());
+    bool is_flat = true;
+    for (const Piece& piece : pieces_) {
+        const SurfacePoint middle = middle_of(piece);
+        if (glm::length(middle.position - position) < glm::length(best.position - position)) best = middle;
+        // One plane to the rounding of float vertices.
+        is_flat = is_flat && glm::dot(piece.geometric_normal, pieces_.front().geometric_normal) > 1 - 1e-10;
+    }
+    if (!is_flat) return best;
+    best.position = position;
+    best.normal = normalize_or(normal, best.geometric_normal);
+    return best;
 }
 
 }  // namespace surimi

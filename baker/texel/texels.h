@@ -68,10 +68,24 @@ class TexelSurface {
     /// The point for (u, v) in [0, 1)^2, spread in the same way. Always on a triangle.
     SurfacePoint sample(double u, double v) const;
 
+    /// The point that stands for the texel best: its centre of area where all of it lies in one plane, else the middle
+    /// of the piece whose middle is nearest to that. Always on a triangle or in its plane.
+    SurfacePoint center() const;
+
+    /// Calls visit(SurfacePoint) for the corners of all pieces: the surface is their convex hulls.
+    template <class Visit>
+    void for_each_corner(const Visit& visit) const {
+        for (const Piece& piece : pieces_) {
+            for (const Vec2& uv : {Vec2(0, 0), Vec2(1, 0), Vec2(1, 1)}) visit(point_of(piece, uv));
+            if (piece.is_square) visit(point_of(piece, {0, 1}));
+        }
+    }
+
     /// m^2 of surface under the texel; 0 for a texel that is only touched.
     double area() const { return area_; }
 
   private:
+    static SurfacePoint point_of(const Piece& piece, const Vec2& uv);
     void add(const TriangleRef& triangle, const Vec2& corner);
     void add_piece(const TriangleRef& triangle, double area, bool is_square, const Affine& barycentric);
 
