@@ -73,21 +73,21 @@ struct Receivers {
 std::vector<Audit> audit_pages(const Receivers& receivers, const Bake& baked, size_t monitor,
                                const BakeSettings& settings, const Progress& progress) {
     const auto c = static_cast<size_t>(receivers.scene.monitors[monitor].channel);
-    std::vector<std::vector<IrradianceEstimate>> estimates;
     std::vector<size_t> lit{0};  // texels with light on all pages before this one
-    for (size_t p = 0; p < baked.pages.size(); ++p) {
-        estimates.push_back(of_texels(receivers.texels[p], baked.pages[p].irradiance[c]));
+    for (const BakedPage& page : baked.pages) {
+        const auto& pixels = page.irradiance[c].pixels;
         const auto has_light = [](const IrradianceEstimate& estimate) { return estimate.unshadowed > 0; };
-        lit.push_back(lit.back() +
-                      static_cast<size_t>(std::count_if(estimates[p].begin(), estimates[p].end(), has_light)));
+        lit.push_back(lit.back() + static_cast<size_t>(std::count_if(pixels.begin(), pixels.end(), has_light)));
     }
     const size_t wanted = std::min(settings.audit, lit.back());
     std::vector<Audit> audits(baked.pages.size());
     for (size_t p = 0; p < audits.size(); ++p) {
+        const Texels& texels = receivers.texels[p];
         const size_t count = lit.back() > 0 ? wanted * lit[p + 1] / lit.back() - wanted * lit[p] / lit.back() : 0;
         if (count > 0)
-            audits[p] = audit(receivers.scene, baked.atlas, receivers.texels[p], receivers.rays, monitor, estimates[p],
-                              settings.gather, count, part_of(progress, p, audits.size()));
+            audits[p] = audit(receivers.scene, baked.atlas, texels, receivers.rays, monitor,
+                              of_texels(texels, baked.pages[p].irradiance[c]), settings.gather, count,
+                              part_of(progress, p, audits.size()));
     }
     return audits;
 }
