@@ -2,7 +2,9 @@
 // Visibility of a monitor from a texel's surface by rays.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <vector>
 
 #include "baker/texel/texels.h"
 #include "runtime/light/monitor.h"
@@ -11,26 +13,46 @@
 
 namespace surimi {
 
+/// What all texels share of their samples: four-dimensional Sobol points, and which of them are neighbours. 1 MB; make
+/// one for a bake.
+struct SamplePoints {
+    static constexpr size_t capacity = size_t{1} << 16;
+
+    SamplePoints();
+
+    /// [dimension][index]: digits of the Sobol points, reversed as scrambling wants them. Dimensions 0 and 1 choose
+    /// the point of the monitor, 2 and 3 that of the texel.
+    std::array<std::vector<uint32_t>, 4> digits;
+    /// [log2 of the number of samples][way to cut space into cells]: sample i shares its cell with sample i ^ partner
+    /// (M52).
+    static constexpr size_t cell_shapes = 4;
+    std::array<std::array<uint32_t, cell_shapes>, 17> partner{};
+};
+
 struct MonteCarloTask {
     const RayScene& rays;
     const MonitorSampler& sampler;
+    const SamplePoints& points;
     size_t monitor = 0;
     double clearance = 0;  ///< metres in front of the panels at which rays end (panel.h)
     double error = 0.001;  ///< standard error of V at which it may stop
-    int samples = 0;       ///< exactly so many rays; 0: as many as `error` takes, at most `most_samples`
-    int most_samples = 1 << 16;
-    uint64_t key = 0;  ///< of the random numbers
+    int samples = 0;       ///< exactly so many, at most SamplePoints::capacity; 0: as many as `error` takes
+    int most_samples = SamplePoints::capacity;
+    uint64_t key = 0;  ///< of the random numbers; nothing else does the result depend on
 };
 
 struct MonteCarloEstimate {
     double visibility = 0;  ///< in [0, 1]; 0 where no sample is lit
-    double error = 0;       ///< standard error of it, estimated without bias from pairs of samples in strata (M52)
-    size_t rays = 0;
+    /// Standard error of it, from pairs of samples that share a cell (M52): not below the truth on average, and never
+    /// 0, since what N samples have not met may be there. 1 where no sample is lit.
+    double error = 1;
+    size_t rays = 0;      ///< fewer than samples where the monitor is partly behind or below the horizon
     bool is_lit = false;  ///< some sample has weight
 };
 
-/// The ratio estimator (M6) over Owen-scrambled Sobol points of texel surface times monitor, in rounds of doubled size.
-/// Rays go through Embree sixteen at a time. Fully lit gives exactly 1.
+/// The ratio estimator (M6) over Owen-scrambled Sobol points of texel surface times monitor, in rounds of doubled size
+/// from 64. Rays go through Embree sixteen at a time. Fully lit gives exactly 1, fully shadowed exactly 0. Texels that
+/// no one of 4096 samples lights are given up.
 MonteCarloEstimate monte_carlo(const MonteCarloTask& task, const TexelSurface& surface);
 
 }  // namespace surimi

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// A monitor's panels as the methods of this room see them: flat coordinates, and where the light begins.
+// A monitor's panels in flat coordinates, and what one point sees of them.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "runtime/base/math.h"
@@ -18,15 +19,39 @@ struct Panel {
     std::vector<Vec2> corners;  ///< in (s, t), counter-clockwise seen from the front
     std::vector<Vec3> places;   ///< the same in space
     double clearance = 0;       ///< metres in front of the plane within which nothing counts as an occluder
-    bool is_two_sided = false;
+
+    Vec3 at(const Vec2& place) const { return center + place.x * axis_s + place.y * axis_t; }
+    /// Height of a point over the plane, metres.
+    double height(const Vec3& point) const { return glm::dot(normal, point - center); }
 };
 
-/// The panels of a monitor. The clearance is 1e-4 of the panel's diameter and 64 half-ulps of the largest coordinate:
-/// a screen glued to its wall, or let into it, is not hidden by it.
+/// The panels of a monitor, and after each its back where the monitor is two-sided. The clearance is 1e-4 of the
+/// panel's diameter and 64 half-ulps of the largest coordinate: a screen that is glued to its wall or let into it is
+/// not hidden by it.
 std::vector<Panel> panels_of(const Monitor& monitor, const RayScene& rays);
 
 /// The share of the way from `origin` to any point of the panel at which it comes within the clearance; 0 when the
-/// origin is closer than that. Rays end there.
+/// origin is closer than that or behind the panel. Rays end there.
 double end_of_rays(const Panel& panel, const Vec3& origin);
+
+/// A point that rays start from and the part of a panel that lights it.
+struct PanelView {
+    const Panel* panel = nullptr;
+    Vec3 origin{0};                         ///< RayScene::ray_origin, relative to its centre
+    Vec3 normal{0, 0, 1};                   ///< shading normal
+    Vec3 row_s{0}, row_t{0}, row_w{0};      ///< x - origin -> homogeneous (s, t, w) on the panel, w = 1 in its plane
+    double end = 1;                         ///< w at which occluders cease to count (end_of_rays)
+    std::vector<Vec2> lit;                  ///< of the panel above the horizon of the shading normal
+    std::vector<Vec2> open;                 ///< of that, above the surface itself: what can arrive
+};
+
+/// Fills `view`; its arrays are reused. `lit` is empty where the point is behind the panel or sees none of it.
+void look_at(PanelView& view, const Panel& panel, const Vec3& origin, const Vec3& normal, const Vec3& geometric_normal);
+
+/// Irradiance / (1/2), by (M1), of a convex polygon of the panel that lies above the view's horizon: for ratios.
+double contour_integral(const PanelView& view, std::span<const Vec2> polygon);
+
+/// The part of a convex polygon where x * line.x + y * line.y + line.z >= 0, into `part` (Sutherland and Hodgman 1974).
+void cut(std::span<const Vec2> polygon, const Vec3& line, std::vector<Vec2>& part);
 
 }  // namespace surimi

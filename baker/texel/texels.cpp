@@ -162,7 +162,10 @@ void TexelSurface::add_piece(const TriangleRef& triangle, double area, bool is_s
         normalize_or(area_normal(surface.positions[i], surface.positions[j], surface.positions[k]), surface.normals[i]);
     piece.barycentric = barycentric;
     piece.position = interpolated(surface.positions);
-    piece.normal = interpolated(surface.normals);
+    const Vec3 &a = surface.normals[i], &b = surface.normals[j], &c = surface.normals[k];
+    piece.has_one_normal = a == b && b == c;
+    piece.normal = piece.has_one_normal ? Affine{normalize_or(a, piece.geometric_normal), Vec3(0), Vec3(0)}
+                                        : interpolated(surface.normals);
 }
 
 void TexelSurface::add(const TriangleRef& triangle, const Vec2& corner) {
@@ -193,19 +196,58 @@ void TexelSurface::add(const TriangleRef& triangle, const Vec2& corner) {
     }
 }
 
-SurfacePoint TexelSurface::sample(double u, double v) const {
-    const double target = u * total_;
+const TexelSurface::Piece& TexelSurface::choose(double& u, double& v) const {
     const Piece* piece = &pieces_.front();
-    double before = 0;
-    while (piece != &pieces_.back() && !(target < piece->cumulative)) before = (piece++)->cumulative;
-    // The number that chose the piece is stretched to serve again within it: strata survive.
-    u = std::clamp((target - before) / (piece->cumulative - before), 0.0, 1.0);
+    if (pieces_.size() > 1) {
+        const double target = u * total_;
+        double before = 0;
+        while (piece != &pieces_.back() && !(target < piece->cumulative)) before = (piece++)->cumulative;
+        // The number that chose the piece is stretched to serve again within it: strata survive.
+        u = std::clamp((target - before) / (piece->cumulative - before), 0.0, 1.0);
+    }
     if (!piece->is_square) {
         u = std::sqrt(u);  // edge_u runs to the second corner, edge_v from there to the third
         v *= u;
     }
-    return {piece->triangle, piece->barycentric.at(u, v), piece->position.at(u, v),
-            normalize_or(piece->normal.at(u, v), piece->geometric_normal), piece->geometric_normal};
+    return *piece;
+}
+
+SurfacePoint TexelSurface::sample(double u, double v) const {
+    const Piece& piece = choose(u, v);
+    return point_of(piece, {u, v});
+}
+
+SurfacePoint TexelSurface::point_of(const Piece& piece, const Vec2& uv) {
+    return {piece.triangle, piece.barycentric.at(uv.x, uv.y), piece.position.at(uv.x, uv.y),
+            piece.unit_normal(uv.x, uv.y), piece.geometric_normal};
+}
+
+SurfacePoint TexelSurface::center() const {
+    const auto middle_of = [](const Piece& piece) {
+        return point_of(piece, piece.is_square ? Vec2(0.5) : Vec2(2.0 / 3, 1.0 / 3));
+    };
+    if (pieces_.size() == 1) return middle_of(pieces_.front());
+    Vec3 position(0), normal(0);
+    double before = 0;
+    for (const Piece& piece : pieces_) {
+        const double share = (piece.cumulative - before) / total_;
+        before = piece.cumulative;
+        const SurfacePoint middle = middle_of(piece);
+        position += share * middle.position;
+        normal += share * middle.normal;
+    }
+    SurfacePoint best = middle_of(pieces_.front());
+    bool is_flat = true;
+    for (const Piece& piece : pieces_) {
+        const SurfacePoint middle = middle_of(piece);
+        if (glm::length(middle.position - position) < glm::length(best.position - position)) best = middle;
+        // One plane to the rounding of float vertices.
+        is_flat = is_flat && glm::dot(piece.geometric_normal, pieces_.front().geometric_normal) > 1 - 1e-10;
+    }
+    if (!is_flat) return best;
+    best.position = position;
+    best.normal = normalize_or(normal, best.geometric_normal);
+    return best;
 }
 
 }  // namespace surimi

@@ -67,15 +67,19 @@ constexpr std::array<uint32_t, 4> point(uint32_t index) {
 }
 
 /// Owen scrambling by hashing: every bit is flipped by a function of the bits above it (Laine and Karras 2011, with
-/// the better-mixing constants of Vegdahl 2021). Keeps the stratification of any net in base 2.
-constexpr uint32_t scramble(uint32_t x, uint32_t seed) {
-    x = reverse_bits(x);
+/// the better-mixing constants of Vegdahl 2021). Keeps the stratification of any net in base 2. `reversed`: the
+/// fraction with its first digit in the lowest bit.
+constexpr uint32_t scramble_reversed(uint32_t reversed, uint32_t seed) {
+    uint32_t x = reversed;
     x ^= x * 0x3d20adeau;
     x += seed;
     x *= (seed >> 16) | 1u;
     x ^= x * 0x05526c56u;
     x ^= x * 0x53a22864u;
     return reverse_bits(x);
+}
+constexpr uint32_t scramble(uint32_t x, uint32_t seed) {
+    return scramble_reversed(reverse_bits(x), seed);
 }
 
 }  // namespace sobol

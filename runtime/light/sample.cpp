@@ -35,13 +35,17 @@ MonitorSampler::MonitorSampler(const Monitor& monitor) : two_sided_(monitor.two_
 }
 
 LightPoint MonitorSampler::sample(double u, double v) const {
-    // The number that chooses the piece is stretched to serve again within it: strata survive.
-    const double target = u * area_;
-    auto piece = std::upper_bound(pieces_.begin(), pieces_.end(), target,
-                                  [](double t, const Piece& p) { return t < p.cumulative; });
-    if (piece == pieces_.end()) --piece;
-    const double before = piece == pieces_.begin() ? 0 : std::prev(piece)->cumulative;
-    u = std::clamp((target - before) / (piece->cumulative - before), 0.0, 1.0);
+    const Piece* piece = pieces_.data();
+    if (pieces_.size() > 1) {
+        // The number that chooses the piece is stretched to serve again within it: strata survive.
+        const double target = u * area_;
+        auto chosen = std::upper_bound(pieces_.begin(), pieces_.end(), target,
+                                       [](double t, const Piece& p) { return t < p.cumulative; });
+        if (chosen == pieces_.end()) --chosen;
+        const double before = chosen == pieces_.begin() ? 0 : std::prev(chosen)->cumulative;
+        u = std::clamp((target - before) / (chosen->cumulative - before), 0.0, 1.0);
+        piece = &*chosen;
+    }
     if (!piece->is_parallelogram) {
         u = std::sqrt(u);  // edge_u runs to the second corner, edge_v from there to the third
         v *= u;

@@ -4,6 +4,7 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -170,33 +171,23 @@ bool RayScene::is_occluded(const Vec3& origin, const Vec3& target, size_t monito
     return ray.tfar < 0;
 }
 
-void RayPacket::add(const Vec3& origin, const Vec3& target, double ray_end) {
-    const Vec3 direction = target - origin;
-    origin_x[size] = static_cast<float>(origin.x);
-    origin_y[size] = static_cast<float>(origin.y);
-    origin_z[size] = static_cast<float>(origin.z);
-    direction_x[size] = static_cast<float>(direction.x);
-    direction_y[size] = static_cast<float>(direction.y);
-    direction_z[size] = static_cast<float>(direction.z);
-    end[size] = static_cast<float>(ray_end);
-    ++size;
-}
-
 uint32_t RayScene::occluded(const RayPacket& packet, size_t monitor) const {
-    alignas(64) std::array<int, RayPacket::capacity> valid;
+    constexpr size_t lanes = RayPacket::capacity;
+    alignas(64) std::array<int, lanes> valid;
     RTCRay16 rays;
-    for (size_t i = 0; i < RayPacket::capacity; ++i) {
-        const bool is_ray = i < packet.size;
-        valid[i] = is_ray ? -1 : 0;
-        if (!is_ray) continue;
-        rays.org_x[i] = packet.origin_x[i];
-        rays.org_y[i] = packet.origin_y[i];
-        rays.org_z[i] = packet.origin_z[i];
-        rays.dir_x[i] = packet.direction_x[i];
-        rays.dir_y[i] = packet.direction_y[i];
-        rays.dir_z[i] = packet.direction_z[i];
+    const auto copy = [](const std::array<float, lanes>& from, float* to) {
+        std::memcpy(to, from.data(), sizeof from);
+    };
+    copy(packet.origin_x, rays.org_x);
+    copy(packet.origin_y, rays.org_y);
+    copy(packet.origin_z, rays.org_z);
+    copy(packet.direction_x, rays.dir_x);
+    copy(packet.direction_y, rays.dir_y);
+    copy(packet.direction_z, rays.dir_z);
+    copy(packet.end, rays.tfar);
+    for (size_t i = 0; i < lanes; ++i) {
+        valid[i] = i < packet.size ? -1 : 0;
         rays.tnear[i] = 0;
-        rays.tfar[i] = packet.end[i];
         rays.time[i] = 0;
         rays.mask[i] = everything & ~(1u << monitor);
         rays.id[i] = 0;

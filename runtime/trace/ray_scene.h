@@ -17,9 +17,19 @@ struct RayPacket {
     alignas(64) std::array<float, capacity> origin_x, origin_y, origin_z, direction_x, direction_y, direction_z, end;
     size_t size = 0;
 
-    /// A ray that ends at `end` times the way from `origin` to `target`, both relative to RayScene::center(). There
+    /// A ray that ends at `ray_end` times the way from `origin` to `target`, both relative to RayScene::center(). There
     /// must be room.
-    void add(const Vec3& origin, const Vec3& target, double end);
+    void add(const Vec3& origin, const Vec3& target, double ray_end) {
+        const Vec3 direction = target - origin;
+        origin_x[size] = static_cast<float>(origin.x);
+        origin_y[size] = static_cast<float>(origin.y);
+        origin_z[size] = static_cast<float>(origin.z);
+        direction_x[size] = static_cast<float>(direction.x);
+        direction_y[size] = static_cast<float>(direction.y);
+        direction_z[size] = static_cast<float>(direction.z);
+        end[size] = static_cast<float>(ray_end);
+        ++size;
+    }
 };
 
 struct Hit {
