@@ -89,9 +89,8 @@ Run add_study_command(CLI::App& app) {
         app.add_subcommand("study", "What accuracy costs in time on this scene, as a plot and in words");
     add_scene_options(*command, *given);
     add_unwrap_options(*command, *given);
-    command->add_option("--seed", given->seed, "Seed of the random numbers [0]")
-        ->type_name("N")
-        ->envname("SURIMI_SEED");
+    command->add_option("--seed", given->gather.emplace().seed, "Seed of the random numbers [0]")
+        ->option_text("N (Env:SURIMI_SEED)");
     command->add_option("--texels", options->texels, "Lit texels to measure, over all monitors, 1 to 100000 [500]")
         ->type_name("N");
     command->add_option("--reference", options->reference, "Rays of the reference for each, 64 to 16777216 [65536]")

@@ -49,12 +49,13 @@ void drop_unlit(Selection& selection, std::vector<Reference>& references) {
                     "no monitor lights any texel of the map; surimi inspect shows which way the monitors face");
 }
 
-std::vector<Series> measure_all(const Subject& subject, const Silhouettes& silhouettes, double seconds,
-                                const Progress& progress) {
-    std::vector<Technique> techniques = baker_techniques(silhouettes, seconds);
+std::vector<Series> measure_all(const Subject& subject, const RayScene& rays, const Progress& progress) {
+    const OneThread one_thread;
+    const double start = thread_seconds();
+    const Silhouettes silhouettes = find_silhouettes(subject.scene, rays);
+    std::vector<Technique> techniques = baker_techniques(silhouettes, thread_seconds() - start);
     for (Technique& technique : other_techniques()) techniques.push_back(std::move(technique));
     std::vector<Series> result;
-    const OneThread one_thread;
     for (size_t i = 0; i < techniques.size(); ++i) {
         Series& series = result.emplace_back(techniques[i].series);
         for (const Trial& trial : techniques[i].trials) {
@@ -86,10 +87,8 @@ Study study(const Scene& scene, const StudySettings& settings, const Progress& p
     references = trace_references(subject, settings.reference_rays, progress);
     drop_unlit(selection, references);
 
-    const Silhouettes silhouettes;
-    const double silhouette_seconds = 0;
     Study result;
-    result.series = measure_all(subject, silhouettes, silhouette_seconds, progress);
+    result.series = measure_all(subject, rays, progress);
     result.reference_error = reference_error(references);
     result.reference_rays = settings.reference_rays;
     result.texels = references.size();
