@@ -48,6 +48,10 @@ double reference_error(std::span<const Reference> references) {
     return std::sqrt(sum / static_cast<double>(std::max<size_t>(1, references.size())));
 }
 
+size_t allowed_outliers(size_t texels) {
+    return (texels + 500) / 1000;
+}
+
 void set_errors(Measurement& measurement, std::span<const double> values, std::span<const Reference> references) {
     if (values.empty()) return;
     const double noise = reference_error(references);
@@ -65,7 +69,7 @@ void set_errors(Measurement& measurement, std::span<const double> values, std::s
     const double mean = sum / count;
     const double uncertainty = std::sqrt(std::max(0.0, sum_of_squares / count - mean * mean) / count);
     measurement.rmse = std::sqrt(std::max(mean, uncertainty));
-    measurement.p999 = errors[static_cast<size_t>(std::ceil(0.999 * count)) - 1];
+    measurement.p999 = errors[errors.size() - 1 - allowed_outliers(errors.size())];
 }
 
 Measurement measure(const Subject& subject, const Estimator& estimator, double setup_seconds) {

@@ -20,7 +20,7 @@ struct Measurement {
     double seconds = 0;   ///< for each texel and monitor; what is done once for a map is spread over its lit texels
     double rays = 0;      ///< for each texel and monitor
     double rmse = 0;      ///< of V, the reference's variance taken off; never less than what the sample can tell from 0
-    double p999 = 0;      ///< 99.9 % of the texels are within it and three of the reference's standard errors
+    double p999 = 0;      ///< all texels but `allowed_outliers` are within it and three of the reference's errors
     double largest = 0;   ///< error, that of the reference included
 };
 
@@ -63,6 +63,9 @@ Measurement measure_engine(const Subject& subject, const Silhouettes& silhouette
 
 /// The errors of values against references, in the Measurement's fields (M58). NaN-free for any finite values.
 void set_errors(Measurement& measurement, std::span<const double> values, std::span<const Reference> references);
+
+/// 0.1 % of so many texels, rounded to whole ones: of 500, one is no proof that more than 0.1 % of a map are like it.
+size_t allowed_outliers(size_t texels);
 
 /// RMS of the references' standard errors.
 double reference_error(std::span<const Reference> references);

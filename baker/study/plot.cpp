@@ -17,7 +17,7 @@ namespace {
 
 constexpr double width = 960, height = 640;
 constexpr Box frame{{84, 74}, {936, 540}};
-constexpr double font_size = 13, letter_width = 0.56 * font_size;  // of common sans-serif faces, on average
+constexpr double font_size = 13, letter_width = 0.6 * font_size;  // of common sans-serif faces, on average
 
 enum class Marker { circle, square, diamond, triangle };
 

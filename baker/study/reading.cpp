@@ -95,7 +95,7 @@ Recommendation recommend(const Study& study) {
         throw Error(ErrorKind::internal, "a study without the baker's own settings");
     const Measurement *first = nullptr, *best = nullptr;
     for (const Measurement& point : automatic->points) {  // from loose to fine
-        if (point.value > visible_error || point.p999 > point.value) continue;
+        if (point.value > visible_error || point.p999 > point.value || point.rmse > point.value / 2) continue;
         if (!first) first = best = &point;
         if (point.seconds <= worthwhile_cost * first->seconds) best = &point;
     }
@@ -125,9 +125,10 @@ std::string reading(const Study& study, const std::string& file_name) {
         "Recommended: surimi bake {} --error {:g}, which costs {} a texel, {} of one core for the {} lit "
         "texels of the whole map",
         file_name, r.measurement.value, in_time_unit(r.measurement.seconds), in_time_unit(r.map_seconds), study.lit);
-    text += r.is_kept ? fmt::format("; 99.9 % of the texels were within {:.2g}.\n", r.measurement.p999)
-                      : fmt::format("; its promise was not kept here: 99.9 % of the texels were within {:.2g} only.\n",
-                                    r.measurement.p999);
+    const size_t outliers = allowed_outliers(study.texels);
+    text += fmt::format("; {} of the {} texels were within {:.2g}, RMSE {:.2g}{}.\n",
+                        outliers > 0 ? fmt::format("all but {}", outliers) : "all", study.texels, r.measurement.p999,
+                        r.measurement.rmse, r.is_kept ? "" : ": the promise was NOT kept here");
     return text;
 }
 

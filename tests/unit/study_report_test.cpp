@@ -104,6 +104,9 @@ TEST(StudyReport, RecommendsTheFinestErrorThatIsNearlyFree) {
     EXPECT_EQ(recommend(study).measurement.value, 0.004);
     study.series[0].points[1].p999 = 0.0041;  // a promise that was not kept is not recommended
     EXPECT_EQ(recommend(study).measurement.value, 0.002);
+    study.series[0].points[2].rmse = 0.0011;  // nor one whose RMSE is more than half the error
+    EXPECT_EQ(recommend(study).measurement.value, 0.001);
+    EXPECT_TRUE(recommend(study).is_kept);
     for (Measurement& m : study.series[0].points) m.p999 = 0.5;
     EXPECT_EQ(recommend(study).measurement.value, 0.001);
     EXPECT_FALSE(recommend(study).is_kept);

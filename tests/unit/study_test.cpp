@@ -302,6 +302,17 @@ TEST(Study, ErrorsAreFreeOfTheReferencesOwn_M58) {
     EXPECT_EQ(m.p999, 0);  // nothing beyond what three standard errors explain
     EXPECT_NEAR(reference_error(references), own, 1e-12);
 
+    EXPECT_EQ(allowed_outliers(499), 0u);
+    EXPECT_EQ(allowed_outliers(500), 1u);
+    EXPECT_EQ(allowed_outliers(100000), 100u);
+    for (size_t i = 0; i < 100; ++i) values[i] += 0.5;
+    set_errors(m, values, references);
+    EXPECT_EQ(m.p999, 0);
+    values[100] += 0.5;
+    set_errors(m, values, references);
+    EXPECT_GT(m.p999, 0.4);
+    for (size_t i = 0; i <= 100; ++i) values[i] -= 0.5;
+
     for (Reference& reference : references) reference.error = 0;
     set_errors(m, values, references);
     EXPECT_NEAR(m.rmse, std::hypot(own, wrong), 1e-4);
