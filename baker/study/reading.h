@@ -25,7 +25,7 @@ inline constexpr double worthwhile_cost = 1.5;
 struct Recommendation {
     Measurement measurement;  ///< its value is the --error to bake with
     double map_seconds = 0;   ///< CPU seconds of one core for all texels and monitors of the map
-    bool is_kept = true;      ///< 99.9 % of the measured texels are within the error
+    bool is_kept = true;      ///< RMSE within half the error, and all texels but 0.1 % within it
 };
 
 /// Of the baker's automatic settings: from the loosest that is no looser than `visible_error` and keeps its promise on,
