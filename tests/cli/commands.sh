@@ -245,7 +245,7 @@ check node -e 'process.exit(JSON.parse(require("fs").readFileSync(process.argv[1
 expect 2 "texels must be" "$surimi" study "$theater" --texels 0
 expect 2 "reference must be" "$surimi" study "$theater" --reference 16
 expect 2 "did you mean --texels" "$surimi" study "$theater" --texel 8
-expect 6 "it is no folder" "$surimi" study "$theater" --size 128 -o "$work/study.json"
+expect 6 "cannot be written" "$surimi" study "$theater" --size 128 -o "$work/study.json"
 
 # Comparing
 expect 0 "FLIP           0 " "$surimi" compare "$work/out/home-theater.visibility.exr" "$work/again/home-theater.visibility.exr"
