@@ -8,6 +8,8 @@
 namespace surimi {
 namespace {
 
+constexpr double patience = 30;  // seconds for one setting
+
 /// The thread that measures is the only one: what runs beside it would share its caches.
 class OneThread {
   public:
@@ -62,9 +64,11 @@ std::vector<Series> measure_all(const Subject& subject, const RayScene& rays, co
             if (progress.is_cancelled && progress.is_cancelled()) throw Error(ErrorKind::interrupted, "interrupted");
             if (progress.report)
                 progress.report("measuring", static_cast<double>(i) / static_cast<double>(techniques.size()));
+            const double trial_start = thread_seconds();
             series.points.push_back(trial.run(subject));
             series.points.back().setting = trial.setting;
             series.points.back().value = trial.value;
+            if (thread_seconds() - trial_start > patience) break;  // the next setting takes longer still
         }
     }
     if (progress.report) progress.report("measuring", 1);

@@ -36,8 +36,9 @@ inline constexpr const char* automatic_id = "surimi";
 inline constexpr const char* random_id = "random";
 
 /// Unwraps, chooses texels, traces references on all threads and measures on one. Values depend on scene and settings
-/// alone, times on the machine. Sets and restores the thread count. Throws what unwrap throws, Error(nothing_to_bake)
-/// when no monitor lights any texel, and Error(interrupted).
+/// alone, times on the machine; a series ends with the first setting that takes longer than half a minute. Sets and
+/// restores the thread count. Throws what unwrap throws, Error(nothing_to_bake) when no monitor lights any texel, and
+/// Error(interrupted).
 Study study(const Scene& scene, const StudySettings& settings, const Progress& progress);
 
 }  // namespace surimi
