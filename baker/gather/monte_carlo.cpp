@@ -73,11 +73,11 @@ void trace(const MonteCarloTask& task, Waiting& waiting, Samples& samples) {
 }
 
 /// Where the samples of the batch lie, on texel and monitor.
-void place(const MonteCarloTask& task, const TexelSurface& surface, size_t count, SampleLanes& lanes) {
+void place(const MonteCarloTask& task, const TexelSurface& surface, SampleLanes& lanes) {
     const Vec3 center = task.rays.center();
     const TexelSurface::Piece* piece = nullptr;
     Vec3 to_origin(0);  // the same all over a piece, and most texels have but one
-    for (size_t i = 0; i < count; ++i) {
+    for (size_t i = 0; i < SampleLanes::count; ++i) {
         double u = lanes.numbers[2][i], v = lanes.numbers[3][i];
         const TexelSurface::Piece& chosen = surface.choose(u, v);
         const Vec3 position = chosen.position.at(u, v), normal = chosen.unit_normal(u, v);
@@ -121,13 +121,13 @@ void enter(const MonteCarloTask& task, const SampleLanes& lanes, size_t count, W
 void extend(const MonteCarloTask& task, const TexelSurface& surface, const Scrambling& seeds, size_t count,
             Samples& samples) {
     Waiting waiting;
-    SampleLanes lanes{};
+    SampleLanes lanes;
     const size_t before = samples.count;
     for (size_t first = before; first < count; first += SampleLanes::count) {
         const size_t some = std::min(SampleLanes::count, count - first);
         const auto digits = [&](size_t dimension) { return task.points.digits[dimension].data() + first; };
         scramble({digits(0), digits(1), digits(2), digits(3)}, seeds, lanes);
-        place(task, surface, some, lanes);
+        place(task, surface, lanes);
         weigh(task.clearance, task.sampler.is_two_sided(), lanes);
         enter(task, lanes, some, waiting, samples);
     }
@@ -160,14 +160,20 @@ double sum_of_squares(std::span<const float> deviations) {
 /// Sum of the squared differences between the samples of a cell.
 double paired_differences(std::span<const float> deviations, uint32_t partner) {
     const size_t half = std::bit_floor(size_t{partner});  // the first of a pair has this bit clear
-    std::array<double, 2> sums{};                         // two chains of additions, so that they overlap
-    for (size_t first = 0; first < deviations.size(); first += 2 * half)
-        for (size_t i = 0; i < half; ++i) {
-            // first + i has the bits of a place in its net, and nets start at multiples of their size.
-            const float difference = deviations[first + i] - deviations[(first + i) ^ partner];
-            sums[i & 1u] += static_cast<double>(difference) * static_cast<double>(difference);
+    // A sample's number has the bits of its place in its net, since nets start at multiples of their size.
+    const auto squared_difference = [&](size_t i) {
+        const auto difference = static_cast<double>(deviations[i] - deviations[i ^ partner]);
+        return difference * difference;
+    };
+    double even = 0, odd = 0;  // two chains of additions, so that they overlap
+    for (size_t first = 0; first < deviations.size(); first += 2 * half) {
+        for (size_t i = 0; i + 1 < half; i += 2) {
+            even += squared_difference(first + i);
+            odd += squared_difference(first + i + 1);
         }
-    return sums[0] + sums[1];
+        if (half == 1) even += squared_difference(first);
+    }
+    return even + odd;
 }
 
 /// Variance of the sum of all deviations: the smallest of what independent samples would have (M7) and what each way to
