@@ -42,10 +42,54 @@ Image<IrradianceEstimate> as_image(const Texels& texels, const std::vector<Irrad
     return image;
 }
 
-void store_channel(VisibilityMap& map, const Monitor& monitor, const Image<float>& visibility) {
-    for (size_t i = 0; i < visibility.pixels.size(); ++i)
-        map.visibility.pixels[i][monitor.channel] = visibility.pixels[i];
-    map.monitors[static_cast<size_t>(monitor.channel)] = monitor.name;
+/// The same for the texels again.
+std::vector<IrradianceEstimate> of_texels(const Texels& texels, const Image<IrradianceEstimate>& image) {
+    std::vector<IrradianceEstimate> estimates;
+    estimates.reserve(texels.texels.size());
+    for (const Texel& texel : texels.texels) estimates.push_back(image.pixels[texel.index]);
+    return estimates;
+}
+
+void store_channel(BakedPage& page, const Monitor& monitor, const Atlas& atlas, const Texels& texels,
+                   const std::vector<IrradianceEstimate>& estimates) {
+    const auto c = static_cast<size_t>(monitor.channel);
+    Channel channel = visibility_channel(texels, estimates);
+    fill(atlas, texels, channel.visibility, channel.state);
+    for (size_t i = 0; i < channel.visibility.pixels.size(); ++i)
+        page.map.visibility.pixels[i][monitor.channel] = channel.visibility.pixels[i];
+    page.map.monitors[c] = monitor.name;
+    page.state[c] = std::move(channel.state);
+    page.irradiance[c] = as_image(texels, estimates);
+}
+
+/// What light is gathered on, and by which rays.
+struct Receivers {
+    const Scene& scene;
+    const std::vector<Texels>& texels;  ///< by page
+    const RayScene& rays;
+};
+
+/// An audit for each page of a monitor that is done. The pages share the texels asked for by how many have light.
+std::vector<Audit> audit_pages(const Receivers& receivers, const Bake& baked, size_t monitor,
+                               const BakeSettings& settings, const Progress& progress) {
+    const auto c = static_cast<size_t>(receivers.scene.monitors[monitor].channel);
+    std::vector<size_t> lit{0};  // texels with light on all pages before this one
+    for (const BakedPage& page : baked.pages) {
+        const auto& pixels = page.irradiance[c].pixels;
+        const auto has_light = [](const IrradianceEstimate& estimate) { return estimate.unshadowed > 0; };
+        lit.push_back(lit.back() + static_cast<size_t>(std::count_if(pixels.begin(), pixels.end(), has_light)));
+    }
+    const size_t wanted = std::min(settings.audit, lit.back());
+    std::vector<Audit> audits(baked.pages.size());
+    for (size_t p = 0; p < audits.size(); ++p) {
+        const Texels& texels = receivers.texels[p];
+        const size_t count = lit.back() > 0 ? wanted * lit[p + 1] / lit.back() - wanted * lit[p] / lit.back() : 0;
+        if (count > 0)
+            audits[p] = audit(receivers.scene, baked.atlas, texels, receivers.rays, monitor,
+                              of_texels(texels, baked.pages[p].irradiance[c]), settings.gather, count,
+                              part_of(progress, p, audits.size()));
+    }
+    return audits;
 }
 
 }  // namespace
@@ -65,25 +109,26 @@ Bake bake(const Scene& scene, const BakeSettings& settings, const Progress& prog
     stopwatch.finish("rays");
 
     const Silhouettes silhouettes;
+    stopwatch.finish("silhouettes");
+
+    result.error = settings.gather.error;
     result.pages.resize(texels.size());
     for (BakedPage& page : result.pages)  // unused channels stay 1
         page.map.visibility = Image<Vec3f>(result.atlas.width, result.atlas.height, Vec3f(1));
     for (size_t m = 0; m < scene.monitors.size(); ++m) {
         const Monitor& monitor = scene.monitors[m];
-        const auto c = static_cast<size_t>(monitor.channel);
+        MonitorEvidence& evidence = result.evidence.emplace_back();
         for (size_t p = 0; p < texels.size(); ++p) {
             const Gathered gathered = gather(scene, result.atlas, texels[p], rays, silhouettes, m, settings.gather,
                                              part_of(progress, p, texels.size()));
+            evidence.statistics.add(gathered.statistics);
             stopwatch.finish("light from " + monitor.name, gathered.statistics.rays());
-
-            BakedPage& page = result.pages[p];
-            Channel channel = visibility_channel(texels[p], gathered.estimates);
-            fill(result.atlas, texels[p], channel.visibility, channel.state);
-            store_channel(page.map, monitor, channel.visibility);
-            page.state[c] = std::move(channel.state);
-            page.irradiance[c] = as_image(texels[p], gathered.estimates);
+            store_channel(result.pages[p], monitor, result.atlas, texels[p], gathered.estimates);
             stopwatch.finish("fill " + monitor.name);
         }
+        if (settings.audit == 0) continue;
+        evidence.audits = audit_pages({scene, texels, rays}, result, m, settings, progress);
+        stopwatch.finish("audit of " + monitor.name);
     }
     return result;
 }

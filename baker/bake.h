@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "baker/gather/audit.h"
 #include "baker/gather/gather.h"
 #include "baker/post/fill.h"
 #include "baker/texel/texels.h"
@@ -20,6 +21,7 @@ namespace surimi {
 struct BakeSettings {
     UnwrapSettings unwrap;
     GatherSettings gather;
+    size_t audit = 0;  ///< texels of each monitor to check against many rays; 0: none
 };
 
 /// What one stage cost, over all monitors and pages that it names.
@@ -37,9 +39,17 @@ struct BakedPage {
     std::array<Image<IrradianceEstimate>, 3> irradiance;  ///< by channel; the evidence behind the map
 };
 
+/// How a monitor's channel came about, and how far it is from the truth.
+struct MonitorEvidence {
+    GatherStatistics statistics;  ///< of all pages
+    std::vector<Audit> audits;    ///< by page; empty when none was asked for
+};
+
 struct Bake {
     Atlas atlas;
     std::vector<BakedPage> pages;
+    double error = GatherSettings{}.error;  ///< asked for
+    std::vector<MonitorEvidence> evidence;  ///< by index in Scene::monitors
     std::vector<StageCost> costs;
     std::vector<std::string> warnings;
 };

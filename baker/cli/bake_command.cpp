@@ -2,13 +2,13 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <memory>
 
 #include "baker/cli/commands.h"
 #include "baker/cli/density_summary.h"
+#include "baker/cli/evidence_summary.h"
 #include "baker/cli/existing_uv.h"
 #include "baker/cli/options.h"
 #include "baker/cli/progress.h"
@@ -17,15 +17,6 @@
 
 namespace surimi {
 namespace {
-
-std::ptrdiff_t count(const Bake& bake, const Monitor& monitor, TexelState which) {
-    std::ptrdiff_t sum = 0;
-    for (const BakedPage& page : bake.pages) {
-        const auto& state = page.state[static_cast<size_t>(monitor.channel)].pixels;
-        sum += std::count(state.begin(), state.end(), which);
-    }
-    return sum;
-}
 
 /// What a person wants to know when it is done.
 void print_summary(const Scene& scene, const Bake& bake) {
@@ -36,11 +27,7 @@ void print_summary(const Scene& scene, const Bake& bake) {
     fmt::print(stderr, "{} x {} texels, {} charts at {:.4g} texels per metre; {:.1f} s, {:.1f} M rays, {:.0f} MiB\n",
                bake.atlas.width, bake.atlas.height, bake.atlas.charts.size(), bake.atlas.texels_per_metre, seconds,
                static_cast<double>(rays) / 1e6, static_cast<double>(bake.costs.back().peak_bytes) / 1048576);
-    for (const Monitor& monitor : scene.monitors) {
-        fmt::print(stderr, "{} {}: {} texels measured, {} unlit, {} filled, {} empty\n", "RGB"[monitor.channel],
-                   monitor.name, count(bake, monitor, TexelState::covered), count(bake, monitor, TexelState::unlit),
-                   count(bake, monitor, TexelState::filled), count(bake, monitor, TexelState::empty));
-    }
+    print_evidence(scene, bake);
     print_uv_choice(bake.atlas);
     print_density_weights(bake.atlas);
     for (const std::string& warning : bake.warnings) fmt::print(stderr, "warning: {}\n", warning);
@@ -65,6 +52,7 @@ int bake_scene(const Given& given, const std::filesystem::path& out) {
     } else {
         for (const auto& path : paths.all()) fmt::print("{}\n", path.string());
     }
+    if (config.is_strict) require_promises(scene, result);
     return 0;
 }
 
@@ -76,7 +64,7 @@ Run add_bake_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand("bake", "Bake the visibility map of a scene's monitors");
     add_scene_options(*command, *given);
     add_unwrap_options(*command, *given);
-    add_gather_options(*command, *given);
+    add_gather_options(*command, given->gather.emplace());
     command->add_option("-o,--output", *out, "Folder to write to [out]")->type_name("FOLDER");
     return [given, out] { return bake_scene(*given, *out); };
 }

@@ -133,10 +133,20 @@ void read_unwrap_key(const std::string& key, const toml::node& node, const Place
     if (key == "uv-quality") settings.quality = parse_uv_quality(value_of<std::string>(node, key, place), place.file);
 }
 
+void read_gather_key(const std::string& key, const toml::node& node, const Place& place, GatherWishes& wishes) {
+    if (key == "error") wishes.error = value_of<double>(node, key, place);
+    if (key == "exact") wishes.is_exact = value_of<bool>(node, key, place);
+    if (key == "quality") wishes.quality = value_of<std::string>(node, key, place);
+    if (key == "time") wishes.seconds = value_of<double>(node, key, place);
+    if (key == "method") wishes.method = value_of<std::string>(node, key, place);
+    if (key == "samples") wishes.samples = value_of<int>(node, key, place);
+    if (key == "audit") wishes.audit = value_of<int>(node, key, place);
+    if (key == "strict") wishes.is_strict = value_of<bool>(node, key, place);
+    if (key == "seed") wishes.seed = static_cast<uint64_t>(value_of<int64_t>(node, key, place));
+}
+
 void read_key(const std::string& key, const toml::node& node, const Place& place, Config& config) {
     read_unwrap_key(key, node, place, config.bake.unwrap);
-    if (key == "samples") config.bake.gather.samples = value_of<int>(node, key, place);
-    if (key == "seed") config.bake.gather.seed = static_cast<uint64_t>(value_of<int64_t>(node, key, place));
     if (key == "threads") config.threads = value_of<int>(node, key, place);
     if (key == "monitor")
         for (const toml::table* item : tables_of(node, key, place)) read_monitor(*item, place, config.monitors);
@@ -156,13 +166,18 @@ void read_config_file(const std::filesystem::path& path, Config& config) {
         throw Error(ErrorKind::usage, fmt::format("{}:{}: {}", path.string(), error.source().begin.line,
                                                   std::string(error.description())));
     }
-    check_keys(table,
-               {"size", "density", "gutter", "mips", "atlases", "stretch", "uv", "uv-quality", "uniform", "samples",
-                "seed", "threads", "monitor", "texel_scale"},
+    check_keys(table, {"size",       "density", "gutter", "mips",  "atlases", "stretch", "uv",
+                       "uv-quality", "uniform", "error",  "exact", "quality", "time",    "method",
+                       "samples",    "audit",   "strict", "seed",  "threads", "monitor", "texel_scale"},
                place);
     if (table.contains("size") && table.contains("density"))
         place.fail(*table.get("density"), "\"size\" and \"density\" exclude each other: one follows from the other");
-    for (const auto& [key, node] : table) read_key(std::string(key.str()), node, place, config);
+    GatherWishes wishes;
+    for (const auto& [key, node] : table) {
+        read_key(std::string(key.str()), node, place, config);
+        read_gather_key(std::string(key.str()), node, place, wishes);
+    }
+    apply(wishes, path.string(), config);
     check_ranges(config, path.string());
 }
 
@@ -178,8 +193,6 @@ void check_ranges(const Config& config, const std::string& source) {
     require(unwrap.mips >= 0 && unwrap.mips <= 8, "mips must be from 0 to 8");
     require(unwrap.atlases >= 1 && unwrap.atlases <= 16, "atlases must be from 1 to 16");
     require(unwrap.stretch > 1 && unwrap.stretch <= 10, "stretch must be above 1 and at most 10");
-    require(config.bake.gather.samples >= 0 && config.bake.gather.samples <= 1 << 20,
-            "samples must be from 0 (as many as the error takes) to 1048576");
     require(config.threads >= 0 && config.threads <= 4096, "threads must be from 0 (all cores) to 4096");
 }
 

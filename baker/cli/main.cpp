@@ -15,7 +15,8 @@ using surimi::ErrorKind;
 
 constexpr const char* footer =
     "Exit codes: 0 ok, 1 internal error, 2 usage or configuration, 3 the scene cannot be read or is invalid,\n"
-    "4 nothing to bake or ambiguous monitors, 5 a comparison above its limit, 6 cannot write, 130 interrupted.\n"
+    "4 nothing to bake or ambiguous monitors, 5 a comparison above its limit, or with --strict an error above the one\n"
+    "asked for, 6 cannot write, 130 interrupted.\n"
     "Start here: surimi inspect room.glb, then surimi bake room.glb -o out, then surimi preview out/room.baked.glb -o "
     "room.png";
 

@@ -69,13 +69,6 @@ void add_unwrap_options(CLI::App& app, Given& given) {
     app.add_flag("--print-config", given.print_config, "Print the settings in effect as TOML and stop");
 }
 
-void add_gather_options(CLI::App& app, Given& given) {
-    app.add_option("--samples", given.samples, "Rays for each texel and monitor, 1 to 1048576 [256]")
-        ->type_name("N")
-        ->envname("SURIMI_SAMPLES");
-    app.add_option("--seed", given.seed, "Seed of the random numbers [0]")->type_name("N")->envname("SURIMI_SEED");
-}
-
 Config effective_config(const Given& given) {
     Config config;
     std::filesystem::path file = given.config;
@@ -101,8 +94,11 @@ Config effective_config(const Given& given) {
     if (given.stretch) unwrap.stretch = *given.stretch;
     if (given.is_uniform) unwrap.is_uniform = true;
     if (given.uv_quality) unwrap.quality = parse_uv_quality(*given.uv_quality, "--uv-quality");
-    if (given.samples) config.bake.gather.samples = *given.samples;
-    if (given.seed) config.bake.gather.seed = *given.seed;
+    if (given.gather) {
+        apply(environment_wishes(), "environment", config);
+        apply(*given.gather, "command line", config);
+        check_samples(config.bake.gather);
+    }
     if (given.threads) config.threads = *given.threads;
     for (const std::string& text : given.monitors) config.monitors.command_line.push_back(parse_monitor_selector(text));
     check_ranges(config, "command line");
@@ -139,8 +135,7 @@ std::string to_toml(const Config& config) {
     text += fmt::format("stretch = {}            # above 1\n", unwrap.stretch);
     text += fmt::format("uv-quality = \"{}\"    # draft, medium, high\n", name_of(unwrap.quality));
     text += fmt::format("uniform = {}          # one density for all\n", unwrap.is_uniform);
-    text += fmt::format("samples = {}            # rays for each texel and monitor\n", config.bake.gather.samples);
-    text += fmt::format("seed = {}\n", config.bake.gather.seed);
+    text += gather_toml(config);
     text += fmt::format("threads = {}              # 0: all cores\n", config.threads);
     for (const TexelScale& wish : unwrap.texel_scales) {
         text += "\n[[texel_scale]]\n";
@@ -195,8 +190,7 @@ std::string unwrap_settings_json(const Config& config) {
 
 std::string settings_json(const Config& config) {
     nlohmann::ordered_json json = unwrap_json(config.bake.unwrap);
-    json["samples"] = config.bake.gather.samples;
-    json["seed"] = config.bake.gather.seed;
+    add_gather_json(config, json);
     return json.dump();
 }
 

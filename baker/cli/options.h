@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "baker/bake.h"
+#include "baker/cli/gather_options.h"
 #include "runtime/scene/monitors.h"
 
 namespace CLI {
@@ -30,8 +31,7 @@ struct Given {
     std::optional<int> atlases;
     std::optional<double> stretch;
     std::optional<std::string> uv_quality;
-    std::optional<int> samples;
-    std::optional<uint64_t> seed;
+    std::optional<GatherWishes> gather;  ///< none: the subcommand does not gather and has no such options
     std::optional<int> threads;
     std::string progress = "auto";
     bool quiet = false;
@@ -43,12 +43,13 @@ struct Given {
 struct Config {
     MonitorRequest monitors;
     BakeSettings bake;
-    int threads = 0;  ///< 0: all cores
+    double seconds = 0;      ///< to spend on a bake; 0: as many as the error takes
+    bool is_strict = false;  ///< an error that is not reached is a failure
+    int threads = 0;         ///< 0: all cores
 };
 
 void add_scene_options(CLI::App& app, Given& given);   ///< SCENE, --monitor, --config, --threads, --quiet, --progress
 void add_unwrap_options(CLI::App& app, Given& given);  ///< --uv, --size, --density, --gutter, --mips and so on
-void add_gather_options(CLI::App& app, Given& given);  ///< --samples, --seed
 
 /// Merges the configuration file (given.config, else NAME.surimi.toml beside the scene, if there) and what is given.
 /// Throws Error(usage) for unknown keys, with the nearest known one, and for values out of range.

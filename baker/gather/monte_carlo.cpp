@@ -72,14 +72,21 @@ void trace(const MonteCarloTask& task, Waiting& waiting, Samples& samples) {
     waiting.packet.size = 0;
 }
 
-/// One number for each lane and dimension.
-using Numbers = std::array<std::array<double, lanes>, 4>;
+/// Of one batch of samples, one number for each and each dimension. Sixty-four at a time, since loops of sixteen are
+/// unrolled before the compiler thinks of vectors.
+constexpr size_t batch = 64;
+using Numbers = std::array<std::array<double, batch>, 4>;
 
-void scramble_lanes(const SamplePoints& points, const Scrambling& seeds, size_t first, Numbers& numbers) {
+/// Numbers in [0, 1) of the samples from `first` on.
+void scramble_batch(const SamplePoints& points, const Scrambling& seeds, size_t first, Numbers& numbers) {
     for (size_t d = 0; d < 4; ++d) {
         const uint32_t* digits = points.digits[d].data() + first;
-        for (size_t i = 0; i < lanes; ++i)
-            numbers[d][i] = static_cast<double>(sobol::scramble_reversed(digits[i], seeds[d])) * 0x1p-32;
+        const uint32_t seed = seeds[d];
+        for (size_t i = 0; i < batch; ++i) {
+            // Vectors convert signed integers only. Nothing of this rounds.
+            const auto below_half = static_cast<int32_t>(sobol::scramble_reversed(digits[i], seed) ^ 0x80000000u);
+            numbers[d][i] = static_cast<double>(below_half) * 0x1p-32 + 0.5;
+        }
     }
 }
 
@@ -115,12 +122,12 @@ double transfer(const Vec3& d, const Vec3& normal, double emitter) {
     return receiver * emitter / (r2 * r2);
 }
 
-/// The next `count` samples, at most sixteen.
+/// The next `count` samples, at most a batch.
 void take(const MonteCarloTask& task, const TexelSurface& surface, const Numbers& numbers, size_t count, OnPiece& on,
           Waiting& waiting, Samples& samples) {
     for (size_t i = 0; i < count; ++i) {
-        const Place from = place_on(task, surface, numbers[0][i], numbers[1][i], on);
-        const LightPoint to = task.sampler.sample(numbers[2][i], numbers[3][i]);
+        const Place from = place_on(task, surface, numbers[2][i], numbers[3][i], on);
+        const LightPoint to = task.sampler.sample(numbers[0][i], numbers[1][i]);
         const Vec3 d = to.position - from.position;
         const double over_panel = -glm::dot(d, to.normal);
         const double weight = transfer(d, from.normal, task.sampler.is_two_sided() ? std::abs(over_panel) : over_panel);
@@ -148,9 +155,9 @@ void extend(const MonteCarloTask& task, const TexelSurface& surface, const Scram
     Numbers numbers;
     OnPiece on;
     const size_t before = samples.count;
-    for (size_t first = before; first < count; first += lanes) {
-        scramble_lanes(task.points, seeds, first, numbers);
-        take(task, surface, numbers, std::min(lanes, count - first), on, waiting, samples);
+    for (size_t first = before; first < count; first += batch) {
+        scramble_batch(task.points, seeds, first, numbers);
+        take(task, surface, numbers, std::min(batch, count - first), on, waiting, samples);
     }
     if (waiting.packet.size > 0) trace(task, waiting, samples);
     for (size_t i = before; i < count; ++i) {
@@ -223,10 +230,11 @@ SamplePoints::SamplePoints() {
         const auto point = sobol::point(i);
         for (size_t d = 0; d < 4; ++d) digits[d][i] = sobol::reverse_bits(point[d]);
     }
-    constexpr std::array<size_t, 4> both{2, 3, 0, 1};
+    constexpr std::array<size_t, 4> all{0, 1, 2, 3};
+    const std::span<const size_t> order(all);
     for (uint32_t m = 1; m < partner.size(); ++m)
-        partner[m] = {partner_of(m, std::span(both).first(2)), partner_of(m, both),
-                      partner_of(m, std::span(both).first(1)), partner_of(m, std::span(both).subspan(1, 1))};
+        partner[m] = {partner_of(m, order.first(2)), partner_of(m, order), partner_of(m, order.first(1)),
+                      partner_of(m, order.subspan(1, 1))};
 }
 
 MonteCarloEstimate monte_carlo(const MonteCarloTask& task, const TexelSurface& surface) {

@@ -21,7 +21,7 @@ struct SamplePoints {
     SamplePoints();
 
     /// [dimension][index]: digits of the Sobol points, reversed as scrambling wants them. Dimensions 0 and 1 choose
-    /// the point of the texel, 2 and 3 that of the monitor.
+    /// the point of the monitor, 2 and 3 that of the texel.
     std::array<std::vector<uint32_t>, 4> digits;
     /// [log2 of the number of samples][way to cut space into cells]: sample i shares its cell with sample i ^ partner
     /// (M52).

@@ -3,6 +3,7 @@
 // Seen from a point, the number of surfaces in front of a monitor changes across such edges only (M50).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -51,9 +52,11 @@ struct Silhouettes {
     std::vector<FacePlane> planes;
     std::vector<Edge> edges;      ///< in the tree's order; flat ones, between faces of one plane, are left out
     std::vector<EdgeNode> nodes;  ///< empty without edges
-    std::vector<std::vector<uint32_t>> plane_of;  ///< [surface][triangle]; Edge::no_plane for triangles without area
-    std::vector<EdgeNode> cutout_nodes;           ///< tree over alpha-masked triangles: bounds only; no cones
-    std::vector<std::array<Vec3f, 3>> cutouts;    ///< those triangles in that tree's order
+    /// [surface][triangle], as Hit and TriangleRef count them: surfaces.size() + m is the panels of monitor m, empty
+    /// where it has a surface. Edge::no_plane for triangles without area and for alpha-masked ones.
+    std::vector<std::vector<uint32_t>> plane_of;
+    std::vector<EdgeNode> cutout_nodes;         ///< tree over alpha-masked triangles: bounds only; no cones
+    std::vector<std::array<Vec3f, 3>> cutouts;  ///< those triangles in that tree's order
 };
 
 /// All opaque surfaces' edges (blended and transmissive ones are opaque here, as for rays). Surfaces of different
@@ -77,6 +80,7 @@ struct Shaft {
     std::vector<Vec3> block, panel;  ///< the corners it was made of
     Vec3 block_center{0};
     double block_radius = 0;
+    double margin = 0;  ///< by how much planes and bounds were moved out
 };
 
 /// `block`: corners of a convex volume that holds the receivers, 1 to 8, may be flat or a point. `panel`: corners of a
@@ -85,10 +89,12 @@ struct Shaft {
 Shaft make_shaft(std::span<const Vec3> block, std::span<const Vec3> panel, double scale);
 
 /// Indices into `edges` of all edges that meet the shaft, belong to another than `monitor`, and can be a silhouette
-/// from some point of the block (not all planes at it seen from the same side by the whole block). In tree order.
+/// from some point of the block (not all planes at it seen from the same side by the whole block, M50). In tree order;
+/// what `found` held before is gone.
 void find_candidates(const Silhouettes& silhouettes, const Shaft& shaft, size_t monitor, std::vector<uint32_t>& found);
 
-/// Does an edge of this plane's group, silhouette or not, meet the shaft?
+/// Does an edge of this plane's group, silhouette or not, meet the shaft? Where none does, the plane has the block on
+/// one side and the panel on the other, and one ray between them hits the group, it hides all from all (M51).
 bool meets_rim(const Silhouettes& silhouettes, const Shaft& shaft, uint32_t plane);
 
 /// May an alpha-masked triangle meet the shaft? By the triangle's bounds and corners: true more often than it does.

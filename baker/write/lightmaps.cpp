@@ -21,7 +21,7 @@ Channels lightmap_channels(const Scene& scene, const BakedPage& page) {
     channels.width = page.map.visibility.width;
     channels.height = page.map.visibility.height;
     for (const Monitor& monitor : scene.monitors)
-        for (const char* quantity : {".shadowed", ".unshadowed", ".error", ".state"})
+        for (const char* quantity : {".shadowed", ".unshadowed", ".error", ".method", ".state"})
             channels.names.push_back(layer_name(scene, monitor) + quantity);
     const size_t texel_count = static_cast<size_t>(channels.width) * static_cast<size_t>(channels.height);
     channels.values.reserve(texel_count * channels.names.size());
@@ -31,8 +31,9 @@ Channels lightmap_channels(const Scene& scene, const BakedPage& page) {
             assert(page.irradiance[c].pixels.size() == texel_count && page.state[c].pixels.size() == texel_count);
             const IrradianceEstimate& estimate = page.irradiance[c].pixels[i];
             const auto state = static_cast<float>(page.state[c].pixels[i]);
+            const auto method = static_cast<float>(estimate.method);
             channels.values.insert(channels.values.end(),
-                                   {estimate.shadowed, estimate.unshadowed, estimate.error, state});
+                                   {estimate.shadowed, estimate.unshadowed, estimate.error, method, state});
         }
     return channels;
 }

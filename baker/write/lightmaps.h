@@ -11,8 +11,8 @@
 namespace surimi {
 
 /// For every monitor the channels NAME.shadowed and NAME.unshadowed (texel averages of S and E at unit
-/// radiance, W/m^2 per W/m^2/sr), NAME.error (standard error of S / E) and NAME.state (the number of the
-/// TexelState). NAME is the monitor's, with its channel added ("TV_G") where two monitors share a name.
+/// radiance, W/m^2 per W/m^2/sr), NAME.error (standard error of S / E), NAME.method and NAME.state (the numbers of
+/// TexelMethod and TexelState). NAME is the monitor's, with its channel added ("TV_G") where two monitors share a name.
 Channels lightmap_channels(const Scene& scene, const BakedPage& page);
 
 /// Writes them as an EXR of floats. Throws Error(cannot_write).

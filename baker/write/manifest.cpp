@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "baker/unwrap/density.h"
+#include "baker/write/evidence_sections.h"
 #include "baker/write/manifest_sections.h"
 
 namespace surimi {
@@ -117,36 +118,6 @@ Json texels_section(const Scene& scene, const Bake& bake) {
     return section;
 }
 
-/// The errors of the measured texels of a channel.
-struct Errors {
-    double sum = 0;
-    double largest = 0;
-    size_t count = 0;
-
-    void add(const Image<TexelState>& state, const Image<IrradianceEstimate>& irradiance) {
-        for (size_t i = 0; i < state.pixels.size(); ++i) {
-            if (state.pixels[i] != TexelState::covered) continue;
-            const double error = irradiance.pixels[i].error;
-            sum += error;
-            largest = std::max(largest, error);
-            ++count;
-        }
-    }
-};
-
-/// The estimated standard error of V over the measured texels of each channel.
-Json error_section(const Scene& scene, const Bake& bake) {
-    Json section = Json::object();
-    for (const Monitor& monitor : scene.monitors) {
-        const auto c = static_cast<size_t>(monitor.channel);
-        Errors errors;
-        for (const BakedPage& page : bake.pages) errors.add(page.state[c], page.irradiance[c]);
-        const double mean = errors.count > 0 ? errors.sum / static_cast<double>(errors.count) : 0;
-        section[channel_name(monitor.channel)] = {{"mean", mean}, {"max", errors.largest}};
-    }
-    return section;
-}
-
 }  // namespace
 
 Json uv_section(const Atlas& atlas) {
@@ -214,12 +185,13 @@ std::string make_manifest(const Scene& scene, const Bake& bake, const std::strin
                         {"monitors", monitors_section(scene)},
                         {"texels", texels_section(scene, bake)},
                         {"error", error_section(scene, bake)},
+                        {"evidence", evidence_section(scene, bake)},
                         {"rays", rays},
                         {"densityWeights", weights_section(scene, bake.atlas)},
                         {"warnings", bake.warnings},
                         {"notes", notes_section(scene)},
                         {"outputs", outputs_section(files, bake.atlas.pages)},
-                        {"run", {{"stages", stages}}}};
+                        {"run", {{"stages", stages}, {"monitors", monitor_seconds_section(scene, bake)}}}};
     return manifest.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

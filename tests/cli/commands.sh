@@ -30,14 +30,29 @@ check() {
 
 # 0, and the help
 expect 0 "Exit codes" "$surimi" --help
-expect 0 "--samples" "$surimi" bake --help
+expect 0 "draft = error 0.02" "$surimi" bake --help
 expect 0 "surimi 0." "$surimi" --version
 
 # 2: usage and configuration
 expect 2 "did you mean bake" "$surimi" bkae x.glb
 expect 2 "did you mean --samples" "$surimi" bake "$theater" --sample 3
 expect 2 "" "$surimi"
-expect 2 "samples must be" "$surimi" bake "$theater" --samples 0
+expect 2 "samples must be" "$surimi" bake "$theater" --method mc --samples -1
+expect 2 "error must be" "$surimi" bake "$theater" --error 0
+expect 2 "error must be" "$surimi" bake "$theater" --error nan
+expect 2 "error must be" env SURIMI_ERROR=1.5 "$surimi" bake "$theater"
+expect 2 "time must be" "$surimi" bake "$theater" --time 0
+expect 2 "audit must be" "$surimi" bake "$theater" --audit -1
+expect 2 'did you mean "scanline"' "$surimi" bake "$theater" --method scanlines
+expect 2 'did you mean "draft"' "$surimi" bake "$theater" --quality drat
+expect 2 "add --method mc" "$surimi" bake "$theater" --samples 64
+expect 2 "add --method mc" "$surimi" bake "$theater" --samples 64 --exact
+expect 2 "high stands for error 0.001" "$surimi" bake "$theater" --quality high --error 0.01
+expect 2 "quality and exact" "$surimi" bake "$theater" --quality high --exact
+expect 2 "only splitting is exact" "$surimi" bake "$theater" --exact --method mc
+expect 2 "time and error" "$surimi" bake "$theater" --time 10 --error 0.01
+expect 2 "SURIMI_EXACT" env SURIMI_EXACT=perhaps "$surimi" bake "$theater"
+expect 2 "SURIMI_SAMPLES" env SURIMI_SAMPLES=many "$surimi" bake "$theater"
 expect 2 "size must be" "$surimi" bake "$theater" --size 4
 expect 2 "" "$surimi" bake "$theater" --size 64 --density 3
 expect 2 "mips must be" "$surimi" unwrap "$theater" --mips 9
@@ -51,6 +66,8 @@ expect 2 "Nobody" "$surimi" bake "$theater" --monitor Nobody
 expect 2 "" "$surimi" bake "$theater" --monitor Monitor_R=X
 printf 'sampels = 3\n' >"$work/bad.toml"
 expect 2 'did you mean "samples"' "$surimi" bake "$theater" --config "$work/bad.toml"
+printf 'error = 0.01\nquality = "draft"\n' >"$work/bad.toml"
+expect 2 "bad.toml: quality and error" "$surimi" bake "$theater" --config "$work/bad.toml"
 printf 'samples = "many"\n' >"$work/bad.toml"
 expect 2 "bad.toml:1" "$surimi" bake "$theater" --config "$work/bad.toml"
 printf 'size = [\n' >"$work/bad.toml"
@@ -79,28 +96,78 @@ check test ! -e "$work/empty"
 
 # 6: cannot write
 : >"$work/file"
-expect 6 "" "$surimi" bake "$theater" --size 128 --samples 1 --quiet -o "$work/file/out"
+expect 6 "" "$surimi" bake "$theater" --size 128 --quality draft --quiet -o "$work/file/out"
 
 # A bake: all files, the input as it was, the same bytes again with another number of threads
 before=$(sha256sum <"$theater")
-expect 0 "home-theater.baked.glb" "$surimi" bake "$theater" --size 128 --samples 4 -o "$work/out" --threads 1
+expect 0 "home-theater.baked.glb" "$surimi" bake "$theater" --size 128 --quality draft --audit 20 -o "$work/out" --threads 1
+check grep -q "estimated error: .* within 0.02, RMS .*; audit of 20: RMSE" "$work/stderr"
 check test "$before" = "$(sha256sum <"$theater")"
 for name in visibility.exr visibility.png lightmaps.exr baked.glb visibility.json; do
     check test -s "$work/out/home-theater.$name"
 done
 check test -z "$(find "$work/out" -name '*tmp*')"
-expect 0 "" "$surimi" bake "$theater" --size 128 --samples 4 -o "$work/again" --threads 3 --quiet
+expect 0 "" "$surimi" bake "$theater" --size 128 --quality draft --audit 20 -o "$work/again" --threads 3 --quiet
 check test ! -s "$work/stderr"
-for name in visibility.exr visibility.png lightmaps.exr baked.glb; do
-    check cmp "$work/out/home-theater.$name" "$work/again/home-theater.$name"
+# FIRST SECOND: the files of both bakes are the same, the manifest up to what it says of the run.
+expect_same_bake() {
+    for name in visibility.exr visibility.png lightmaps.exr baked.glb; do
+        check cmp "$1/home-theater.$name" "$2/home-theater.$name"
+    done
+    check grep -q '^  "run"' "$1/home-theater.visibility.json"
+    check cmp <(sed '/^  "run"/,$d' "$1/home-theater.visibility.json") <(sed '/^  "run"/,$d' "$2/home-theater.visibility.json")
+}
+expect_same_bake "$work/out" "$work/again"
+for method in "--method split" "--method scanline" "--method mc --error 0.05" "--method mc --samples 8" "--exact --error 0.1"; do
+    read -ra options <<<"$method"
+    for threads in 1 3; do
+        expect 0 "" "$surimi" bake "$theater" --size 128 --quiet "${options[@]}" --threads $threads -o "$work/threads-$threads"
+    done
+    expect_same_bake "$work/threads-1" "$work/threads-3"
 done
+
+# The evidence in the manifest: every measured texel is in the histogram and has a method
+node -e '
+    const manifest = JSON.parse(require("fs").readFileSync(process.argv[1]));
+    const { promise, errorHistogram, methods, audit } = manifest.evidence.R;
+    const sum = (numbers) => numbers.reduce((a, b) => a + b, 0);
+    const measured = sum(Object.entries(methods).filter(([name]) => name != "none").map(([, method]) => method.texels));
+    const holds = promise.error === 0.02 && promise.kept === (promise.breaches.length === 0) && measured > 1000 &&
+        measured === manifest.texels.R.covered && sum(errorHistogram.texels) === measured &&
+        errorHistogram.below.length === errorHistogram.texels.length && audit.texels === 20 &&
+        sum(Object.values(methods).map((method) => method.rays)) === manifest.rays["light from Monitor_R"] &&
+        manifest.settings.error === 0.02 && manifest.settings.audit === 20 && manifest.run.monitors.R.querySeconds >= 0;
+    process.exit(holds ? 0 : 1)' "$work/out/home-theater.visibility.json" || fail "evidence of the manifest"
+expect 0 "" "$surimi" bake "$theater" --size 128 --atlases 2 --quality draft --audit 21 --quiet -o "$work/pages"
+node -e '
+    const { audit } = JSON.parse(require("fs").readFileSync(process.argv[1])).evidence.R;
+    const texels = audit.pages.map((page) => page.texels);
+    process.exit(texels.length === 2 && texels[0] > 0 && texels[1] > 0 && texels[0] + texels[1] === audit.texels &&
+        audit.texels === 21 ? 0 : 1)' "$work/pages/home-theater.visibility.json" || fail "audits of two pages"
+checks=$((checks + 2))
+
+# 5: sixteen rays are not enough for an error of 0.0001; without --strict that is a warning
+expect 5 "Monitor_R" "$surimi" bake "$theater" --size 128 --method mc --samples 16 --error 0.0001 --strict --quiet -o "$work/strict"
+check test -s "$work/strict/home-theater.visibility.json"
+expect 0 "the error asked for is not reached" "$surimi" bake "$theater" --size 128 --method mc --samples 16 --error 0.0001 -o "$work/strict"
+check grep -q '"kept": false' "$work/strict/home-theater.visibility.json"
+expect 0 "" "$surimi" bake "$theater" --size 128 --exact --error 1 --strict --quiet -o "$work/strict"
+check grep -q '"kept": true' "$work/strict/home-theater.visibility.json"
 check node "$here/validate_glb.mjs" "$theater" "$work/out/home-theater.baked.glb"
 
 # Settings: file under environment under command line; what is printed can be read back
-printf 'samples = 7\nsize = 96\n[[texel_scale]]\nnode = "*"\nscale = 0.5\n' >"$work/some.toml"
+printf 'method = "mc"\nsamples = 7\nsize = 96\n[[texel_scale]]\nnode = "*"\nscale = 0.5\n' >"$work/some.toml"
 expect 0 "samples = 7 " "$surimi" bake "$theater" --config "$work/some.toml" --print-config
 expect 0 "samples = 8 " env SURIMI_SAMPLES=8 "$surimi" bake "$theater" --config "$work/some.toml" --print-config
 expect 0 "samples = 9 " env SURIMI_SAMPLES=8 "$surimi" bake "$theater" --config "$work/some.toml" --samples 9 --print-config
+expect 0 "samples = 8 " env SURIMI_SAMPLES=8 "$surimi" bake "$theater" --method mc --print-config
+expect 0 "samples = 0 " "$surimi" bake "$theater" --config "$work/some.toml" --method split --print-config
+expect 0 "error = 0.001 " env SURIMI_QUALITY=high "$surimi" bake "$theater" --print-config
+expect 0 "error = 0.03 " env SURIMI_QUALITY=high "$surimi" bake "$theater" --error 0.03 --print-config
+expect 0 "exact = true " env SURIMI_EXACT=1 "$surimi" bake "$theater" --print-config
+expect 0 "exact = true " "$surimi" bake "$theater" --quality reference --print-config
+expect 0 "time = 30 " "$surimi" bake "$theater" --time 30 --print-config
+expect 0 "uv = " env SURIMI_SAMPLES=8 "$surimi" unwrap "$theater" --print-config # which gathers nothing
 "$surimi" bake "$theater" --config "$work/some.toml" --monitor 'Monitor_*=B' --print-config >"$work/effective.toml"
 expect 0 'scale = 0.5' "$surimi" bake "$theater" --config "$work/effective.toml" --print-config
 expect 0 'channel = "B"' "$surimi" bake "$theater" --config "$work/effective.toml" --print-config
@@ -118,12 +185,12 @@ expect 0 'mips = 4 ' env SURIMI_MIPS=2 "$surimi" unwrap "$theater" --config "$wo
 
 # A monitor that the configuration describes
 printf '[[monitor]]\nname = "Wall"\nchannel = "G"\ncenter = [0, 1.5, 0]\nhalf_u = [0.5, 0, 0]\nhalf_v = [0, 0.3, 0]\n' >"$work/wall.toml"
-expect 0 "Wall" "$surimi" bake "$theater" --config "$work/wall.toml" --size 128 --samples 1 -o "$work/wall"
+expect 0 "Wall" "$surimi" bake "$theater" --config "$work/wall.toml" --size 128 --quality draft -o "$work/wall"
 check node "$here/validate_glb.mjs" "$theater" "$work/wall/home-theater.baked.glb"
 expect 0 "Wall" "$surimi" inspect "$work/wall/home-theater.baked.glb"
 
 # Baking into the UVs of a bake gives the same map again
-expect 0 "" "$surimi" bake "$work/out/home-theater.baked.glb" --uv existing --size 128 --samples 4 -o "$work/existing" --quiet
+expect 0 "" "$surimi" bake "$work/out/home-theater.baked.glb" --uv existing --size 128 --quality draft -o "$work/existing" --quiet
 expect 3 "TEXCOORD_1" "$surimi" bake "$theater" --uv existing --size 128 -o "$work/none"
 
 # Inspecting and looking
@@ -208,7 +275,7 @@ expect 0 '"referenceNoise"' "$surimi" preview "$baked" -o "$work/compared.png" -
 expect 2 "--compare is for" "$surimi" preview "$baked" -o "$work/x.png" --compare --show diffuse
 
 # 130: Ctrl-C leaves nothing behind
-"$surimi" bake "$theater" --size 2048 --samples 4096 -o "$work/interrupted" --quiet 2>"$work/stderr" &
+"$surimi" bake "$theater" --size 2048 --method mc --samples 4096 -o "$work/interrupted" --quiet 2>"$work/stderr" &
 sleep 3
 kill -INT $!
 wait $!

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include <nlohmann/json.hpp>
 
 namespace surimi {
@@ -47,6 +49,18 @@ struct SmallBake {
         page.irradiance[1].pixels[0].error = 0.25f;
         page.irradiance[1].pixels[1].error = 0.5f;
         page.irradiance[1].pixels[2].error = 9;  // not a measured texel
+        GatherStatistics& statistics = bake.evidence.emplace_back().statistics;
+        statistics.methods[static_cast<size_t>(TexelMethod::none)] = {1, 0, 0, 0};
+        statistics.methods[static_cast<size_t>(TexelMethod::split)] = {1, 4, 9, 0.5};
+        statistics.methods[static_cast<size_t>(TexelMethod::monte_carlo)] = {1, 2, 68, 1.5};
+        statistics.blocks = 5;
+        statistics.shadowed_blocks = 1;
+        statistics.candidates = 10;
+        statistics.segments = 6;
+        statistics.query_seconds = 0.25;
+        statistics.error_histogram = {1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0};
+        statistics.above_error = 1;
+        bake.error = 0.3;
         bake.costs = {{"unwrap", 0.5, 0, 1000}, {"light from Screen", 2, 77, 2000}};
         bake.warnings = {"Screen faces a wall"};
     }
@@ -100,7 +114,72 @@ TEST(Manifest, MonitorsAreInWorldSpace) {
 TEST(Manifest, ErrorAndStatesAreOfTheMeasuredTexels) {
     const Json json = Json::parse(SmallBake().text());
     EXPECT_EQ(json["texels"]["G"], Json({{"covered", 2}, {"unlit", 1}, {"filled", 1}, {"empty", 0}}));
-    EXPECT_EQ(json["error"]["G"], Json({{"mean", 0.375}, {"max", 0.5}}));
+    EXPECT_EQ(json["error"]["G"]["mean"], 0.375);
+    EXPECT_DOUBLE_EQ(json["error"]["G"]["rms"], std::sqrt((0.0625 + 0.25) / 2));
+    EXPECT_EQ(json["error"]["G"]["max"], 0.5);
+}
+
+TEST(Manifest, EvidenceCountsWhatWasDone) {
+    const Json evidence = Json::parse(SmallBake().text())["evidence"]["G"];
+    EXPECT_EQ(evidence["methods"]["none"], Json({{"texels", 1}, {"points", 0}, {"rays", 0}}));
+    EXPECT_EQ(evidence["methods"]["split"], Json({{"texels", 1}, {"points", 4}, {"rays", 9}}));
+    EXPECT_EQ(evidence["methods"]["monteCarlo"]["rays"], 68);
+    EXPECT_EQ(evidence["methods"].size(), texel_method_count);
+    EXPECT_EQ(evidence["candidatesPerBlock"], 2.5) << "of the blocks that no facet hides";
+    EXPECT_EQ(evidence["segmentsPerPoint"], 1.5) << "of the points that split or scan";
+    EXPECT_FALSE(evidence.contains("audit")) << "none was asked for";
+}
+
+TEST(Manifest, HistogramNamesTheUpperEndsOfItsBins) {
+    const Json histogram = Json::parse(SmallBake().text())["evidence"]["G"]["errorHistogram"];
+    ASSERT_EQ(histogram["below"].size(), GatherStatistics::bins);
+    ASSERT_EQ(histogram["texels"].size(), GatherStatistics::bins);
+    EXPECT_EQ(histogram["below"][0], 0);
+    EXPECT_EQ(histogram["below"][1], 0x1p-14);
+    EXPECT_EQ(histogram["below"][15], 1);
+    EXPECT_EQ(histogram["texels"][0], 1) << "exact";
+    EXPECT_EQ(histogram["texels"][14], 1) << "below 0.5";
+}
+
+TEST(Manifest, ABrokenPromiseStandsInIt) {
+    SmallBake small;
+    const Json broken = Json::parse(small.text())["evidence"]["G"]["promise"];
+    EXPECT_EQ(broken["error"], 0.3);
+    EXPECT_EQ(broken["shareAbove"], 0.5);
+    EXPECT_EQ(broken["kept"], false);
+    EXPECT_EQ(broken["breaches"].size(), 1);
+    small.bake.evidence[0].statistics.above_error = 0;
+    const Json kept = Json::parse(small.text())["evidence"]["G"]["promise"];
+    EXPECT_EQ(kept["kept"], true);
+    EXPECT_EQ(kept["breaches"], Json::array());
+}
+
+TEST(Manifest, AuditsOfPagesAreGivenTogetherAndApart) {
+    SmallBake small;
+    small.bake.evidence[0].audits = {{40, 0.25, 0.125, 0.5, 0.01, 0.75, 3, 0.2}};
+    const Json one = Json::parse(small.text())["evidence"]["G"]["audit"];
+    EXPECT_EQ(one["texels"], 40);
+    EXPECT_EQ(one["rmse"], 0.25);
+    EXPECT_EQ(one["rmseInterval"], Json({0.125, 0.5}));
+    EXPECT_EQ(one["beyond"], 3);
+    EXPECT_EQ(one["shareBeyondAtMost"], 0.2);
+    EXPECT_EQ(one["largest"], 0.75);
+    EXPECT_EQ(one["referenceError"], 0.01);
+    EXPECT_FALSE(one.contains("pages"));
+    small.bake.evidence[0].audits.push_back({60, 0.1, 0.1, 0.1, 0.01, 0.2, 1, 0.1});
+    const Json two = Json::parse(small.text())["evidence"]["G"]["audit"];
+    EXPECT_EQ(two["texels"], 100);
+    EXPECT_EQ(two["beyond"], 4);
+    ASSERT_EQ(two["pages"].size(), 2);
+    EXPECT_EQ(two["pages"][1]["page"], 1);
+    EXPECT_EQ(two["pages"][1]["texels"], 60);
+}
+
+TEST(Manifest, SecondsOfMethodsAreOfTheRun) {
+    const Json run = Json::parse(SmallBake().text())["run"]["monitors"]["G"];
+    EXPECT_EQ(run["querySeconds"], 0.25);
+    EXPECT_EQ(run["methods"]["split"], Json({{"seconds", 0.5}, {"microsecondsPerPoint", 125000.0}}));
+    EXPECT_FALSE(run["methods"].contains("scanline")) << "no point was scanned";
 }
 
 TEST(Manifest, OnlyTheLastMemberVariesFromRunToRun) {
@@ -108,6 +187,8 @@ TEST(Manifest, OnlyTheLastMemberVariesFromRunToRun) {
     const std::string first = small.text();
     small.bake.costs[0].seconds = 99;
     small.bake.costs[1].peak_bytes = 99;
+    small.bake.evidence[0].statistics.query_seconds = 99;
+    small.bake.evidence[0].statistics.methods[3].seconds = 99;
     const std::string second = small.text();
     EXPECT_NE(first, second);
     const size_t run = first.find("\"run\"");

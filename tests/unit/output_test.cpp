@@ -48,8 +48,9 @@ struct FinishedBake {
         page.irradiance[1] = Image<IrradianceEstimate>(4, 4);
         for (size_t i = 0; i < 16; ++i) {
             page.map.visibility.pixels[i].y = static_cast<float>(i) / 15;
-            page.irradiance[1].pixels[i] = {0.3f, 0.01f * static_cast<float>(i), 0.001f};
+            page.irradiance[1].pixels[i] = {0.3f, 0.01f * static_cast<float>(i), 0.001f, TexelMethod::scanline};
         }
+        bake.evidence.resize(1);
         bake.costs = {{"unwrap", 0.1, 0, 1}};
     }
     OutputPaths write() const { return write_bake(out, scene, bake, "{}"); }
@@ -101,15 +102,16 @@ TEST(Output, AllFilesAreThereAndNothingElse) {
 TEST(Output, EvidenceHasALayerForEachMonitor) {
     const FinishedBake finished;
     const Channels channels = read_channels(finished.write().pages[0].lightmaps_exr);
-    ASSERT_EQ(channels.names.size(), 4u);
+    ASSERT_EQ(channels.names.size(), 5u);
     const auto value = [&](const std::string& name, size_t texel) {
         const auto found = std::find(channels.names.begin(), channels.names.end(), name);
         EXPECT_NE(found, channels.names.end()) << name;
-        return channels.values.at(texel * 4 + static_cast<size_t>(found - channels.names.begin()));
+        return channels.values.at(texel * 5 + static_cast<size_t>(found - channels.names.begin()));
     };
     EXPECT_EQ(value("Screen.unshadowed", 5), 0.3f);
     EXPECT_EQ(value("Screen.shadowed", 5), 0.01f * 5);
     EXPECT_EQ(value("Screen.error", 5), 0.001f);
+    EXPECT_EQ(value("Screen.method", 5), 4.0f) << "the number of TexelMethod::scanline";
     EXPECT_EQ(value("Screen.state", 5), 1.0f);
 }
 
@@ -121,7 +123,7 @@ TEST(Output, MonitorsOfOneNameHaveLayersOfTheirOwn) {
     finished.bake.pages[0].irradiance[2] = finished.bake.pages[0].irradiance[1];
     const Channels channels = lightmap_channels(finished.scene, finished.bake.pages[0]);
     EXPECT_EQ(channels.names[0], "Screen_G.shadowed");
-    EXPECT_EQ(channels.names[4], "Screen_B.shadowed");
+    EXPECT_EQ(channels.names[5], "Screen_B.shadowed");
 }
 
 TEST(Output, ManifestHashesWhatIsOnTheDisk) {

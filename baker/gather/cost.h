@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the methods cost, so that the cheapest that reaches the error is taken. Constants, not measurements of the day:
+// the same scene has to give the same bytes. `gather_stages` prints them for the machine at hand; only ratios matter.
+#pragma once
+
+#include <cstddef>
+
+#include "baker/gather/settings.h"
+
+namespace surimi {
+
+/// What the error asked for allows each step to leave.
+struct Tolerances {
+    double lines = 0;        ///< estimate of a point at which scanlines stop
+    double footprint = 0;    ///< of a texel's average over a few points
+    double monte_carlo = 0;  ///< standard error at which rays stop
+    int first_lines = 64;    ///< scanlines to begin with
+};
+Tolerances tolerances(const GatherSettings& settings);
+
+inline constexpr int most_lines = 1024;
+
+/// Nanoseconds for one texel or point, with the machine of docs/decisions.md.
+double cost_of_projecting(size_t candidates);
+double cost_of_split(size_t segments);
+double cost_of_scan(size_t segments, int lines);
+double cost_of_monte_carlo(double standard_error);
+
+}  // namespace surimi

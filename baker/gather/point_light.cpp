@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "baker/gather/point_light.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/base/random.h"
+#include "runtime/ltc/polygon.h"
+
+namespace surimi {
+namespace {
+
+Vec2 middle_of(std::span<const Vec2> polygon) {
+    Vec2 sum(0);
+    for (const Vec2& corner : polygon) sum += corner;
+    return sum / static_cast<double>(polygon.size());
+}
+
+/// No silhouette on the open part of the panel: all of it or nothing.
+PointVisibility by_one_ray(const MonitorSetup& setup, const PanelView& view) {
+    PointVisibility result;
+    RayPacket packet;
+    packet.add(view.origin, view.panel->at(middle_of(view.open)), view.end);
+    result.rays = 1;
+    if (setup.rays.occluded(packet, setup.monitor) != 0) return result;
+    const bool is_whole = view.open.size() == view.lit.size() && view.open == view.lit;
+    result.visibility =
+        is_whole ? 1 : std::min(1.0, contour_integral(view, view.open) / contour_integral(view, view.lit));
+    return result;
+}
+
+/// More lines until the estimate is within what the error leaves. The cheap ones may not be enough at a point whose
+/// silhouettes are few: then the exact way.
+PointVisibility by_lines(const MonitorSetup& setup, uint64_t key, const Tolerances& limits, PointWorkspace& work) {
+    PointVisibility best;
+    size_t rays = 0;
+    for (int lines = limits.first_lines;; lines *= 2) {
+        const bool is_first = lines == limits.first_lines;
+        const ScanlineTask task{setup.rays, setup.monitor,       lines, unit_double(hash(key, 7 + static_cast<uint64_t>(lines))),
+                                is_first ? 2 : 0, key};
+        best = scan(work.view, work.segments, task, work.scan);
+        rays += best.rays;
+        if (!best.is_consistent || best.error <= limits.lines || lines >= most_lines) break;
+        // The error falls with lines^-1.5: steps that cannot reach the limit are left out.
+        while (lines < most_lines / 2 && best.error > limits.lines * 5) {
+            best.error /= 2.8;
+            lines *= 2;
+        }
+    }
+    best.rays = rays;
+    return best;
+}
+
+struct Chosen {
+    PointVisibility visibility;
+    TexelMethod method = TexelMethod::none;
+    bool is_dear = false;
+};
+
+Chosen choose(const MonitorSetup& setup, const PanelSight& sight, uint64_t key, PointWorkspace& work) {
+    const GatherSettings& settings = setup.settings;
+    if (sight.candidates.count > 0)
+        project(sight.candidates, sight.first_cut, work.view, work.segments);
+    else
+        work.segments.count = 0;
+    const size_t count = work.segments.count;
+    if (count == 0) return {by_one_ray(setup, work.view), TexelMethod::ray};
+    const Tolerances limits = tolerances(settings);
+    const bool must_split = settings.is_exact || settings.method == Method::split;
+    const double scan_cost = cost_of_scan(count, limits.first_lines);
+    const bool is_free = settings.method == Method::automatic && !settings.is_exact;
+    const double split_cost = cost_of_split(count);
+    if (is_free && std::min(scan_cost, split_cost) > cost_of_monte_carlo(limits.monte_carlo))
+        return {{}, TexelMethod::none, true};
+    if (must_split || (is_free && split_cost <= scan_cost))
+        return {split(work.view, work.segments, setup.rays, setup.monitor, work.split), TexelMethod::split};
+    return {by_lines(setup, key, limits, work), TexelMethod::scanline};
+}
+
+}  // namespace
+
+PointLight light_at(const MonitorSetup& setup, const BlockSight& sight, const SurfacePoint& point, uint64_t key,
+                    PointWorkspace& work) {
+    PointLight light;
+    const Vec3 position = point.position - setup.rays.center();
+    const Vec3 origin = setup.rays.ray_origin(point) - setup.rays.center();
+    for (size_t i = 0; i < sight.count && !light.is_dear; ++i) {
+        const PanelSight& panel_sight = sight.panels[i];
+        const Panel& panel = *panel_sight.panel;
+        const double unshadowed = irradiance_of_polygon<double>(panel.places, position, point.normal);
+        if (!(unshadowed > 0)) continue;
+        light.unshadowed += unshadowed;
+        light.method = std::max(light.method, TexelMethod::certificate);
+        if (panel_sight.is_hidden) continue;
+        look_at(work.view, panel, origin, point.normal, point.geometric_normal);
+        if (work.view.open.empty()) continue;
+        const Chosen chosen = choose(setup, panel_sight, hash(key, i), work);
+        light.method = std::max(light.method, chosen.method);
+        light.is_dear = chosen.is_dear;
+        light.has_failed = light.has_failed || !chosen.visibility.is_consistent;
+        light.shadowed += unshadowed * chosen.visibility.visibility;
+        light.error += unshadowed * chosen.visibility.error;
+        light.rays += chosen.visibility.rays;
+        light.segments += work.segments.count;
+    }
+    if (light.unshadowed > 0) light.error /= light.unshadowed;
+    light.unshadowed = std::min(light.unshadowed, pi);
+    light.shadowed = std::clamp(light.shadowed, 0.0, light.unshadowed);
+    return light;
+}
+
+}  // namespace surimi

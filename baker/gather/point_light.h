@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// What one point of a surface gets from a monitor: by one ray, by splitting or by scanlines.
+#pragma once
+
+#include <cstdint>
+
+#include "baker/gather/block_sight.h"
+#include "baker/gather/cost.h"
+#include "baker/gather/scanline.h"
+#include "baker/gather/split.h"
+
+namespace surimi {
+
+struct PointLight {
+    double unshadowed = 0;  ///< E (M1), closed form
+    double shadowed = 0;    ///< S (M2)
+    double error = 0;       ///< estimate of what S / E may be off by
+    TexelMethod method = TexelMethod::none;
+    size_t rays = 0;
+    size_t segments = 0;  ///< silhouettes on the panels
+    bool has_failed = false;    ///< a cross-check disagreed: the value is not to be used
+    bool is_dear = false;       ///< not evaluated: rays alone are cheaper for the texel
+
+    double visibility() const { return unshadowed > 0 ? shadowed / unshadowed : 0; }
+};
+
+struct PointWorkspace {
+    PanelView view;
+    Segments segments;
+    SplitWorkspace split;
+    ScanlineWorkspace scan;
+};
+
+/// `key`: of the random numbers. Points that the monitor does not reach get zeros. Deterministic.
+PointLight light_at(const MonitorSetup& setup, const BlockSight& sight, const SurfacePoint& point, uint64_t key,
+                    PointWorkspace& work);
+
+}  // namespace surimi
