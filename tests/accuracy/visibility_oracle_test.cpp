@@ -2,9 +2,9 @@
 // The judge judged: triangle subtraction against rays and against closed forms that know nothing of triangles.
 #include <gtest/gtest.h>
 
-#include "runtime/light/sample.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/occlusion_scenes.h"
+#include "tests/support/point_rays.h"
 #include "tests/support/random.h"
 #include "tests/support/scenes.h"
 #include "tests/support/triangle_subtraction.h"
@@ -12,39 +12,6 @@
 
 namespace surimi {
 namespace {
-
-/// Visibility by `count` single rays from one point, with the standard error of the ratio.
-struct Estimate {
-    double visibility = 0, error = 0;
-};
-
-Estimate by_rays(const Scene& scene, const RayScene& rays, const test::Obstructed& obstructed, size_t monitor,
-                 const SurfacePoint& point, uint32_t count) {
-    const MonitorSampler sampler(scene.monitors[monitor]);
-    const Vec3 origin = rays.ray_origin(point);
-    double all = 0, seen = 0, all_squared = 0, seen_squared = 0;
-    for (uint32_t i = 0; i < count; ++i) {
-        const auto r = scrambled(sobol::point(i), scrambling(3));
-        const LightPoint light = sampler.sample(r[0], r[1]);
-        const Vec3 d = light.position - origin;
-        const double height = -glm::dot(d, light.normal), cosine = glm::dot(d, point.normal);
-        const double emitted = sampler.is_two_sided() ? std::abs(height) : height;
-        if (!(emitted > 0 && cosine > 0)) continue;
-        const double weight = emitted * cosine / std::pow(glm::dot(d, d), 2);
-        all += weight;
-        all_squared += weight * weight;
-        if (glm::dot(d, point.geometric_normal) <= 0) continue;
-        const double end = 1 - obstructed.panels[light.panel].clearance / std::abs(height);
-        RayPacket packet;
-        packet.add(origin - rays.center(), light.position - rays.center(), end);
-        if (end > 0 && rays.occluded(packet, monitor) != 0) continue;
-        seen += weight;
-        seen_squared += weight * weight;
-    }
-    if (!(all > 0)) return {0, 1};
-    const double v = seen / all;
-    return {v, std::sqrt(std::max(0.0, seen_squared * (1 - 2 * v) + all_squared * v * v)) / all};
-}
 
 /// Random surface points, the shading normal tilted: within 5 of the standard errors that independent rays would have
 /// (Sobol points do better), and within 1 on average.
@@ -60,7 +27,7 @@ void expect_agreement_with_rays(const Scene& scene, int points, uint64_t seed) {
             const test::SubtractedIrradiance truth = test::subtract_triangles(obstructed, rays, point);
             EXPECT_LE(truth.shadowed, truth.unshadowed * (1 + 1e-12));
             if (truth.unshadowed < 1e-5) continue;
-            const Estimate estimate = by_rays(scene, rays, obstructed, monitor, point, 4096);
+            const test::PointRays estimate = test::visibility_by_rays(scene, rays, obstructed, monitor, point, 4096);
             const double sigma = std::max(estimate.error, 1e-3), error = truth.visibility() - estimate.visibility;
             EXPECT_LE(std::abs(error), 5 * sigma) << "monitor " << monitor << " point " << i;
             if (!(truth.visibility() > 0.01 && truth.visibility() < 0.99)) continue;
@@ -125,8 +92,8 @@ TEST(TriangleSubtraction, NothingWithinTheClearanceHides) {
         const double y = 2 - gap * clearance;
         test::add_quad(scene, "Sheet", {-3, y, -3}, {3, y, -3}, {3, y, 3}, {-3, y, 3});
         const RayScene rays(scene);
-        const test::SubtractedIrradiance result =
-            test::subtract_triangles(test::obstructed(scene, rays, 0), rays, surface_point(scene, {floor, 0}, Vec3(1.0 / 3)));
+        const test::SubtractedIrradiance result = test::subtract_triangles(
+            test::obstructed(scene, rays, 0), rays, surface_point(scene, {floor, 0}, Vec3(1.0 / 3)));
         EXPECT_GT(result.unshadowed, 0.1);
         EXPECT_EQ(result.shadowed, gap < 1 ? result.unshadowed : 0);
     }
@@ -139,8 +106,7 @@ TEST(TriangleSubtraction, BlocksLightThatComesFromBelowTheSurface) {
     const RayScene rays(scene);
     SurfacePoint point = surface_point(scene, {floor, 0}, {0.25, 0.25, 0.5});
     point.normal = normalize_or({-1, 0.001, 0}, {0, 1, 0});
-    const test::SubtractedIrradiance result =
-        test::subtract_triangles(test::obstructed(scene, rays, 0), rays, point);
+    const test::SubtractedIrradiance result = test::subtract_triangles(test::obstructed(scene, rays, 0), rays, point);
     EXPECT_GT(result.unshadowed, 0.01);
     EXPECT_NEAR(result.visibility(), 0.5, 1e-3);
 }

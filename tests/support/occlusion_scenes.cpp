@@ -73,8 +73,7 @@ void add_furniture(Scene& scene, Choice& choice) {
         const double angle = i % 3 == 0 ? choice.between(0, 3) : 0;
         add_surface(scene, numbered("Plain_Box", i), turned_box(at(x, y, half), extent, angle));
     }
-    for (int i = 0; i < 4; ++i)
-        add_surface(scene, numbered("Plain_Pillar", i), pillar(-3 + 2 * i, 1.5, 0.15, 3.5, 24));
+    for (int i = 0; i < 4; ++i) add_surface(scene, numbered("Plain_Pillar", i), pillar(-3 + 2 * i, 1.5, 0.15, 3.5, 24));
     for (int i = 0; i < 10; ++i)
         add_surface(scene, numbered("Plain_Board", i), turned_box(at(3.5, -2, 0.6 + 0.22 * i), {0.6, 0.15, 0.012}, 0));
 }
@@ -84,8 +83,8 @@ void add_balls_and_rings(Scene& scene, Choice& choice) {
         const Vec3 center = at(choice.between(-4, 4), choice.between(-4, 3.5), choice.between(0.4, 2));
         if (i % 2 == 1) {
             const double radius = choice.between(0.15, 0.45);
-            add_surface(scene, numbered("Ball", i), placed(ico_sphere(4), center, at(radius, 0, 0), at(0, radius, 0),
-                                                           at(0, 0, radius)));
+            add_surface(scene, numbered("Ball", i),
+                        placed(ico_sphere(4), center, at(radius, 0, 0), at(0, radius, 0), at(0, 0, radius)));
         } else {
             const double radius = choice.between(0.3, 0.5), tilt = choice.between(0, 3);
             const Vec3 y = radius * at(0, std::cos(tilt), std::sin(tilt));
@@ -128,8 +127,7 @@ void add_touching_boxes(Scene& scene) {
     for (int copy = 0; copy < 3; ++copy) add_surface(scene, numbered("Copy", copy), box(at(2, 0, 0.5), Vec3(1)));
     add_surface(scene, "Sides in common planes", box(at(2, 0, 1), Vec3(1)));
     for (int i = 0; i < 2; ++i)
-        add_surface(scene, numbered("Interpenetrating", i),
-                    turned_box(at(0.1 * i, -2, 0.4), {0.3, 0.3, 0.4}, pi / 4));
+        add_surface(scene, numbered("Interpenetrating", i), turned_box(at(0.1 * i, -2, 0.4), {0.3, 0.3, 0.4}, pi / 4));
     add_surface(scene, "Decal", parallelogram(at(1, 1, 0), at(1, 0, 0), at(0, 1, 0)));
     add_surface(scene, "Decal on a box", parallelogram(at(1.75, -0.5, 0.25), at(0.5, 0, 0), at(0, 0, 0.5)));
 }
@@ -158,8 +156,7 @@ void add_neighbours_of_monitors(Scene& scene) {
     // R is glued to a wall of its own, and a bezel of four bars touches its border.
     add_surface(scene, "Wall behind R", parallelogram(at(-2.5, 4.95, 0.5), at(5, 0, 0), at(0, 0, 2.9)));
     for (const double side : {-1.0, 1.0}) {
-        add_surface(scene, side < 0 ? "Bezel left" : "Bezel right",
-                    box(at(side * 1.65, 4.93, 2), {0.1, 1.8, 0.06}));
+        add_surface(scene, side < 0 ? "Bezel left" : "Bezel right", box(at(side * 1.65, 4.93, 2), {0.1, 1.8, 0.06}));
         add_surface(scene, side < 0 ? "Bezel below" : "Bezel above",
                     box(at(0, 4.93, 2 + side * 0.95), {3.4, 0.1, 0.06}));
     }

@@ -8,9 +8,8 @@
 namespace surimi::test {
 
 double visibility_of(const IrradianceEstimate& estimate) {
-    return estimate.unshadowed > 0
-               ? static_cast<double>(estimate.shadowed) / static_cast<double>(estimate.unshadowed)
-               : 0;
+    return estimate.unshadowed > 0 ? static_cast<double>(estimate.shadowed) / static_cast<double>(estimate.unshadowed)
+                                   : 0;
 }
 
 VisibilityJudge::VisibilityJudge(Scene scene)
