@@ -6,13 +6,13 @@
 #include <cmath>
 #include <span>
 
+#include "baker/gather/sample_lanes.h"
 #include "runtime/base/random.h"
 
 namespace surimi {
 namespace {
 
 constexpr size_t first_round = 64;
-constexpr size_t lanes = RayPacket::capacity;
 constexpr size_t hopeless = 4096;  // samples without weight after which a texel counts as unlit
 
 /// Digits of coordinates in the order in which the two points of a pair should agree.
@@ -61,7 +61,7 @@ struct Samples {
 /// Rays that wait until there are sixteen.
 struct Waiting {
     RayPacket packet;
-    std::array<size_t, lanes> sample;
+    std::array<size_t, RayPacket::capacity> sample;
 };
 
 void trace(const MonteCarloTask& task, Waiting& waiting, Samples& samples) {
@@ -72,92 +72,64 @@ void trace(const MonteCarloTask& task, Waiting& waiting, Samples& samples) {
     waiting.packet.size = 0;
 }
 
-/// Of one batch of samples, one number for each and each dimension. Sixty-four at a time, since loops of sixteen are
-/// unrolled before the compiler thinks of vectors.
-constexpr size_t batch = 64;
-using Numbers = std::array<std::array<double, batch>, 4>;
-
-/// Numbers in [0, 1) of the samples from `first` on.
-void scramble_batch(const SamplePoints& points, const Scrambling& seeds, size_t first, Numbers& numbers) {
-    for (size_t d = 0; d < 4; ++d) {
-        const uint32_t* digits = points.digits[d].data() + first;
-        const uint32_t seed = seeds[d];
-        for (size_t i = 0; i < batch; ++i) {
-            // Vectors convert signed integers only. Nothing of this rounds.
-            const auto below_half = static_cast<int32_t>(sobol::scramble_reversed(digits[i], seed) ^ 0x80000000u);
-            numbers[d][i] = static_cast<double>(below_half) * 0x1p-32 + 0.5;
-        }
-    }
-}
-
-/// A place on the texel, as far as rays and weights need it.
-struct Place {
-    Vec3 position{0};
-    Vec3 normal{0, 0, 1};  // unit, for shading
-};
-
-/// What stays the same from sample to sample while they fall on one piece of the texel; most texels have but one.
-struct OnPiece {
+/// Where the samples of the batch lie, on texel and monitor.
+void place(const MonteCarloTask& task, const TexelSurface& surface, SampleLanes& lanes) {
+    const Vec3 center = task.rays.center();
     const TexelSurface::Piece* piece = nullptr;
-    Vec3 to_origin{0};  // from a point to where its rays start, relative to RayScene::center()
-};
-
-Place place_on(const MonteCarloTask& task, const TexelSurface& surface, double u, double v, OnPiece& on) {
-    const TexelSurface::Piece& piece = surface.choose(u, v);
-    const Place place{piece.position.at(u, v), piece.unit_normal(u, v)};
-    if (on.piece != &piece) {
-        const SurfacePoint point{piece.triangle, piece.barycentric.at(u, v), place.position, place.normal,
-                                 piece.geometric_normal};
-        on = {&piece, task.rays.ray_origin(point) - place.position - task.rays.center()};
-    }
-    return place;
-}
-
-/// Irradiance weight of a monitor point for a surface point, up to the monitor's area: cos cos / r^2. `d` leads from
-/// one to the other.
-double transfer(const Vec3& d, const Vec3& normal, double emitter) {
-    const double r2 = glm::dot(d, d);
-    const double receiver = glm::dot(d, normal);
-    if (!(receiver > 0) || !(emitter > 0)) return 0;
-    return receiver * emitter / (r2 * r2);
-}
-
-/// The next `count` samples, at most a batch.
-void take(const MonteCarloTask& task, const TexelSurface& surface, const Numbers& numbers, size_t count, OnPiece& on,
-          Waiting& waiting, Samples& samples) {
-    for (size_t i = 0; i < count; ++i) {
-        const Place from = place_on(task, surface, numbers[2][i], numbers[3][i], on);
-        const LightPoint to = task.sampler.sample(numbers[0][i], numbers[1][i]);
-        const Vec3 d = to.position - from.position;
-        const double over_panel = -glm::dot(d, to.normal);
-        const double weight = transfer(d, from.normal, task.sampler.is_two_sided() ? std::abs(over_panel) : over_panel);
-        const size_t index = samples.count++;
-        samples.signed_weights[index] = -static_cast<float>(weight);
-        if (!(weight > 0)) continue;
-        // Light that the shading normal would admit but the surface itself blocks: occluded without a ray.
-        if (!(glm::dot(d, on.piece->geometric_normal) > 0)) continue;
-        const Vec3 origin = from.position + on.to_origin;
-        const Vec3 target = to.position - task.rays.center();
-        const double height = std::abs(glm::dot(target - origin, to.normal));
-        if (!(height > task.clearance)) {
-            samples.signed_weights[index] *= -1;
-            continue;
+    Vec3 to_origin(0);  // the same all over a piece, and most texels have but one
+    for (size_t i = 0; i < SampleLanes::count; ++i) {
+        double u = lanes.numbers[2][i], v = lanes.numbers[3][i];
+        const TexelSurface::Piece& chosen = surface.choose(u, v);
+        const Vec3 position = chosen.position.at(u, v), normal = chosen.unit_normal(u, v);
+        if (piece != &chosen) {
+            piece = &chosen;
+            const Vec3 barycentric = chosen.barycentric.at(u, v);
+            to_origin =
+                task.rays.ray_origin({chosen.triangle, barycentric, position, normal, chosen.geometric_normal}) -
+                position;
         }
-        waiting.sample[waiting.packet.size] = index;
-        waiting.packet.add(origin, target, 1 - task.clearance / height);
-        if (waiting.packet.size == lanes) trace(task, waiting, samples);
+        const LightPoint light = task.sampler.sample(lanes.numbers[0][i], lanes.numbers[1][i]);
+        SampleLanes::set(lanes.position, i, position - center);
+        SampleLanes::set(lanes.normal, i, normal);
+        SampleLanes::set(lanes.geometric_normal, i, piece->geometric_normal);
+        SampleLanes::set(lanes.to_origin, i, to_origin);
+        SampleLanes::set(lanes.target, i, light.position - center);
+        SampleLanes::set(lanes.panel_normal, i, light.normal);
+    }
+}
+
+/// Enters the first `count` of the batch's samples, and traces those that need it.
+void enter(const MonteCarloTask& task, const SampleLanes& lanes, size_t count, Waiting& waiting, Samples& samples) {
+    for (size_t i = 0; i < count; ++i) {
+        const size_t index = samples.count++;
+        const bool needs_ray = lanes.weight[i] > 0 && lanes.end[i] > 0;
+        samples.signed_weights[index] = lanes.end[i] == SampleLanes::open ? lanes.weight[i] : -lanes.weight[i];
+        if (!needs_ray) continue;
+        RayPacket& packet = waiting.packet;
+        waiting.sample[packet.size] = index;
+        packet.origin_x[packet.size] = lanes.origin[0][i];
+        packet.origin_y[packet.size] = lanes.origin[1][i];
+        packet.origin_z[packet.size] = lanes.origin[2][i];
+        packet.direction_x[packet.size] = lanes.direction[0][i];
+        packet.direction_y[packet.size] = lanes.direction[1][i];
+        packet.direction_z[packet.size] = lanes.direction[2][i];
+        packet.end[packet.size] = lanes.end[i];
+        if (++packet.size == RayPacket::capacity) trace(task, waiting, samples);
     }
 }
 
 void extend(const MonteCarloTask& task, const TexelSurface& surface, const Scrambling& seeds, size_t count,
             Samples& samples) {
     Waiting waiting;
-    Numbers numbers;
-    OnPiece on;
+    SampleLanes lanes;
     const size_t before = samples.count;
-    for (size_t first = before; first < count; first += batch) {
-        scramble_batch(task.points, seeds, first, numbers);
-        take(task, surface, numbers, std::min(batch, count - first), on, waiting, samples);
+    for (size_t first = before; first < count; first += SampleLanes::count) {
+        const size_t some = std::min(SampleLanes::count, count - first);
+        const auto digits = [&](size_t dimension) { return task.points.digits[dimension].data() + first; };
+        scramble({digits(0), digits(1), digits(2), digits(3)}, seeds, lanes);
+        place(task, surface, lanes);
+        weigh(task.clearance, task.sampler.is_two_sided(), lanes);
+        enter(task, lanes, some, waiting, samples);
     }
     if (waiting.packet.size > 0) trace(task, waiting, samples);
     for (size_t i = before; i < count; ++i) {
@@ -188,14 +160,20 @@ double sum_of_squares(std::span<const float> deviations) {
 /// Sum of the squared differences between the samples of a cell.
 double paired_differences(std::span<const float> deviations, uint32_t partner) {
     const size_t half = std::bit_floor(size_t{partner});  // the first of a pair has this bit clear
-    std::array<double, 2> sums{};                         // two chains of additions, so that they overlap
-    for (size_t first = 0; first < deviations.size(); first += 2 * half)
-        for (size_t i = 0; i < half; ++i) {
-            // first + i has the bits of a place in its net, and nets start at multiples of their size.
-            const float difference = deviations[first + i] - deviations[(first + i) ^ partner];
-            sums[i & 1u] += static_cast<double>(difference) * static_cast<double>(difference);
+    // A sample's number has the bits of its place in its net, since nets start at multiples of their size.
+    const auto squared_difference = [&](size_t i) {
+        const auto difference = static_cast<double>(deviations[i] - deviations[i ^ partner]);
+        return difference * difference;
+    };
+    double even = 0, odd = 0;  // two chains of additions, so that they overlap
+    for (size_t first = 0; first < deviations.size(); first += 2 * half) {
+        for (size_t i = 0; i + 1 < half; i += 2) {
+            even += squared_difference(first + i);
+            odd += squared_difference(first + i + 1);
         }
-    return sums[0] + sums[1];
+        if (half == 1) even += squared_difference(first);
+    }
+    return even + odd;
 }
 
 /// Variance of the sum of all deviations: the smallest of what independent samples would have (M7) and what each way to

@@ -79,20 +79,22 @@ void turn_around(std::array<uint32_t, 3>& triangle) {
 
 }  // namespace
 
+uint32_t add_surface(Scene& scene, const std::string& name, const Mesh& mesh) {
+    Surface surface = surface_of(mesh);
+    surface.name = name;
+    surface.node = surface.mesh = static_cast<int>(scene.nodes.size());
+    Node node;
+    node.name = name;
+    node.mesh = surface.mesh;
+    node.is_in_scene = true;
+    scene.nodes.push_back(node);
+    scene.surfaces.push_back(std::move(surface));
+    return static_cast<uint32_t>(scene.surfaces.size()) - 1;
+}
+
 Scene scene_of(const std::vector<Mesh>& meshes) {
     Scene scene;
-    for (const Mesh& mesh : meshes) {
-        const int index = static_cast<int>(scene.surfaces.size());
-        Surface surface = surface_of(mesh);
-        surface.name = "mesh_" + std::to_string(index);
-        surface.node = surface.mesh = index;
-        Node node;
-        node.name = surface.name;
-        node.mesh = index;
-        node.is_in_scene = true;
-        scene.nodes.push_back(node);
-        scene.surfaces.push_back(std::move(surface));
-    }
+    for (const Mesh& mesh : meshes) add_surface(scene, "mesh_" + std::to_string(scene.surfaces.size()), mesh);
     return scene;
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <ostream>
+#include <string>
 #include <vector>
 
 #include "runtime/scene/scene.h"
@@ -19,6 +20,9 @@ struct Mesh {
 /// One surface a mesh, with the vertices as they are and normals averaged by area. Zero-area triangles are left out,
 /// as the loader does.
 Scene scene_of(const std::vector<Mesh>& meshes);
+
+/// Adds such a surface as a node of its own; returns the index.
+uint32_t add_surface(Scene& scene, const std::string& name, const Mesh& mesh);
 
 Mesh scaled(Mesh mesh, double factor);
 /// Triangle i of the result is triangle order[i].

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// The light that a texel gets, as an average over its surface.
+#pragma once
+
+#include "baker/gather/gather.h"
+#include "baker/gather/monte_carlo.h"
+#include "baker/gather/point_light.h"
+
+namespace surimi {
+
+/// A texel average and what it took.
+struct TexelLight {
+    PointLight light;
+    size_t points = 0;
+};
+
+/// The same points for every texel: the middles of side x side cells of (u, v) (M8). Errors of the points are added as
+/// independent ones. Stops at the first point that failed or is too dear.
+TexelLight average_over_cells(const MonitorSetup& setup, const BlockSight& sight, const TexelSurface& surface, int side,
+                              uint64_t key, PointWorkspace& work);
+
+/// Refines from the value at the centre until two steps agree: four points, then sixteen. Where shadows are sharper
+/// than that, or a point failed, by rays; with settings.is_exact or Method::split by more and more points.
+TexelLight refined(const MonitorSetup& setup, const BlockSight& sight, const TexelSurface& surface,
+                   const PointLight& center, uint64_t key, PointWorkspace& work);
+
+/// By rays; `unshadowed` > 0.
+TexelLight by_rays(const MonitorSetup& setup, const TexelSurface& surface, double unshadowed, uint64_t key);
+
+}  // namespace surimi

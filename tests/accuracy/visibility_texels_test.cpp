@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whole small maps against texel averages of exact visibility.
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "tests/support/occlusion_scenes.h"
+#include "tests/support/scenes.h"
+#include "tests/support/visibility_judge.h"
+
+namespace surimi {
+namespace {
+
+using test::Deviations;
+using test::VisibilityJudge;
+
+/// A map of one quad, and the truth of its texels.
+struct Map {
+    VisibilityJudge judge;
+    Atlas atlas;
+    Texels texels;
+    std::vector<double> truth;  ///< -1: unlit
+
+    Map(Scene scene, uint32_t quad, int size) : judge(std::move(scene)) {
+        atlas = test::whole_map_atlas(judge.scene(), quad, size);
+        Scene alone = judge.scene();
+        for (uint32_t s = 0; s < alone.surfaces.size(); ++s)
+            if (s != quad) alone.surfaces[s].triangles.clear();
+        texels = find_texels(alone, atlas);
+    }
+    /// From cells x cells midpoints, weighed by their irradiance.
+    void find_truth(int cells) {
+        truth.resize(texels.texels.size());
+        parallel_for(truth.size(), 1, [&](size_t i) {
+            const TexelSurface surface(judge.scene(), atlas, texels, texels.texels[i]);
+            double seen = 0, all = 0;
+            for (int y = 0; y < cells; ++y)
+                for (int x = 0; x < cells; ++x) {
+                    const test::SubtractedIrradiance at =
+                        judge.truth(surface.sample((x + 0.5) / cells, (y + 0.5) / cells));
+                    seen += at.shadowed;
+                    all += at.unshadowed;
+                }
+            truth[i] = all > 0 ? seen / all : -1;
+        });
+    }
+    Gathered gather_with(const GatherSettings& settings) const {
+        return gather(judge.scene(), atlas, texels, judge.rays(), judge.silhouettes(), 0, settings, {});
+    }
+    Deviations deviations(const GatherSettings& settings) const {
+        const Gathered gathered = gather_with(settings);
+        Deviations found;
+        for (size_t i = 0; i < truth.size(); ++i)
+            if (truth[i] >= 0) found.add(test::visibility_of(gathered.estimates[i]), truth[i]);
+        return found;
+    }
+};
+
+/// A floor with a standing box (a contact shadow), a hovering sheet and a narrow post.
+Map furnished_floor(int size) {
+    Scene scene;
+    const uint32_t floor = test::add_quad(scene, "Floor", {-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2});
+    test::add_monitor(scene, "Monitor_R", 0, {0.2, 2.5, -0.1}, {0.8, 0.02, 0}, {0, 0.01, 0.45});
+    test::add_box(scene, "Box", {-0.63, 0.4, 0.41}, {0.7, 0.8, 0.5});
+    test::add_box(scene, "Post", {0.91, 0.75, 0.77}, {0.06, 1.5, 0.06});
+    test::add_quad(scene, "Sheet", {0.1, 1.1, -0.2}, {0.9, 1.2, -0.3}, {0.8, 1.1, -1.1}, {0.2, 1.0, -1.2});
+    return {std::move(scene), floor, size};
+}
+
+/// The promise: 99.9 % of texels within E, RMSE within half. `slack` is what the reference itself may be off by.
+void expect_promise(const Deviations& found, double error, double slack) {
+    EXPECT_LE(found.rmse(), error / 2);
+    const auto beyond =
+        std::count_if(found.errors.begin(), found.errors.end(), [&](double e) { return e > error + slack; });
+    EXPECT_LE(static_cast<double>(beyond), std::max(1.0, 0.001 * static_cast<double>(found.errors.size())));
+}
+
+TEST(VisibilityTexels, KeepThePromiseOnAFurnishedFloor) {
+    Map map = furnished_floor(40);
+    map.find_truth(32);
+    for (const double error : {0.02, 0.004, 0.001}) {
+        SCOPED_TRACE(error);
+        GatherSettings settings;
+        settings.error = error;
+        const Deviations found = map.deviations(settings);
+        EXPECT_GT(found.penumbra, 500u);
+        expect_promise(found, error, 5e-4);
+    }
+}
+
+TEST(VisibilityTexels, AreWithinAQuarterOfTheErrorWhenExact) {
+    Map map = furnished_floor(32);
+    map.find_truth(32);
+    GatherSettings settings;
+    settings.is_exact = true;
+    const Deviations found = map.deviations(settings);
+    EXPECT_LE(found.rmse(), settings.error / 4);
+    EXPECT_LE(found.quantile(0.995), settings.error);
+}
+
+TEST(VisibilityTexels, EveryMethodKeepsThePromise) {
+    Map map = furnished_floor(24);
+    map.find_truth(32);
+    for (const Method method : {Method::split, Method::scanline, Method::monte_carlo}) {
+        SCOPED_TRACE(static_cast<int>(method));
+        GatherSettings settings;
+        settings.method = method;
+        expect_promise(map.deviations(settings), settings.error, 5e-4);
+    }
+}
+
+TEST(VisibilityTexels, KeepThePromiseOnTheFloorOfTheStudysRoom) {
+    Scene scene = test::room_with(test::Contents::low);
+    const uint32_t floor =
+        test::add_quad(scene, "Receiver", {-4.5, 0.01, 4.5}, {4.5, 0.01, 4.5}, {4.5, 0.01, -4.5}, {-4.5, 0.01, -4.5});
+    Map map(std::move(scene), floor, 96);
+    std::erase_if(map.texels.texels, [](const Texel& texel) { return texel.index % 67 != 5; });
+    map.find_truth(24);
+    for (const double error : {0.02, 0.004, 0.001}) {
+        SCOPED_TRACE(error);
+        GatherSettings settings;
+        settings.error = error;
+        expect_promise(map.deviations(settings), error, 1e-3);
+    }
+}
+
+TEST(VisibilityTexels, AreTheSameBytesForOneThreadAndFour) {
+    const Map map = furnished_floor(64);
+    for (const bool is_exact : {false, true}) {
+        GatherSettings settings;
+        settings.is_exact = is_exact;
+        settings.error = 0.001;
+        set_thread_count(1);
+        const Gathered one = map.gather_with(settings);
+        set_thread_count(4);
+        const Gathered four = map.gather_with(settings);
+        set_thread_count(0);
+        ASSERT_EQ(one.estimates.size(), four.estimates.size());
+        for (size_t i = 0; i < one.estimates.size(); ++i) {
+            EXPECT_EQ(one.estimates[i].unshadowed, four.estimates[i].unshadowed) << i;
+            EXPECT_EQ(one.estimates[i].shadowed, four.estimates[i].shadowed) << i;
+            EXPECT_EQ(one.estimates[i].error, four.estimates[i].error) << i;
+            EXPECT_EQ(one.estimates[i].method, four.estimates[i].method) << i;
+        }
+        EXPECT_EQ(one.statistics.rays(), four.statistics.rays());
+        EXPECT_EQ(one.statistics.segments, four.statistics.segments);
+    }
+}
+
+TEST(VisibilityTexels, NothingInTheWayIsExactlyOneAndAClosedBoxExactlyZero) {
+    for (const bool is_closed : {false, true}) {
+        Scene scene;
+        const uint32_t floor = test::add_quad(scene, "Floor", {-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2});
+        test::add_monitor(scene, "Monitor_R", 0, {0.2, 2.5, -0.1}, {0.8, 0.02, 0}, {0, 0.01, 0.45});
+        if (is_closed) test::add_box(scene, "Box", {0, 0.5, 0}, {4.5, 1.5, 4.5});
+        const Map map(std::move(scene), floor, 32);
+        for (const Method method : {Method::automatic, Method::split, Method::scanline, Method::monte_carlo}) {
+            GatherSettings settings;
+            settings.method = method;
+            for (const IrradianceEstimate& e : map.gather_with(settings).estimates) {
+                EXPECT_GT(e.unshadowed, 0);
+                EXPECT_EQ(e.shadowed, is_closed ? 0 : e.unshadowed);
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace surimi

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/support/visibility_judge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace surimi::test {
+
+double visibility_of(const IrradianceEstimate& estimate) {
+    return estimate.unshadowed > 0 ? static_cast<double>(estimate.shadowed) / static_cast<double>(estimate.unshadowed)
+                                   : 0;
+}
+
+VisibilityJudge::VisibilityJudge(Scene scene)
+    : scene_(std::move(scene)), rays_(scene_), silhouettes_(find_silhouettes(scene_, rays_)) {
+    for (size_t m = 0; m < scene_.monitors.size(); ++m) obstructed_.push_back(obstructed(scene_, rays_, m));
+}
+
+SubtractedIrradiance VisibilityJudge::truth(const SurfacePoint& point, size_t monitor) const {
+    return subtract_triangles(obstructed_[monitor], rays_, point);
+}
+
+double VisibilityJudge::split(const SurfacePoint& point, size_t monitor) const {
+    GatherSettings settings;
+    settings.is_exact = true;
+    return visibility_of(irradiance_at(scene_, rays_, silhouettes_, monitor, point, settings));
+}
+
+double VisibilityJudge::scanline(const SurfacePoint& point, double error, size_t monitor) const {
+    GatherSettings settings;
+    settings.method = Method::scanline;
+    settings.error = error;
+    return visibility_of(irradiance_at(scene_, rays_, silhouettes_, monitor, point, settings));
+}
+
+Vec3 VisibilityJudge::seen(const Vec3& vertex) const {
+    return Vec3(Vec3f(vertex - rays_.center())) + rays_.center();
+}
+
+SurfacePoint VisibilityJudge::point_below(uint32_t surface, const Vec3& origin) const {
+    SurfacePoint point = surface_point(scene_, {surface, 0}, Vec3(1.0 / 3));
+    point.position = origin;
+    for (int step = 0; step < 3; ++step) point.position += origin - rays_.ray_origin(point);
+    return point;
+}
+
+SurfacePoint random_point(const Scene& scene, Choice& choice, double tilt) {
+    const auto below = [&](size_t count) {
+        return std::min(static_cast<size_t>(choice.random.next() * static_cast<double>(count)), count - 1);
+    };
+    size_t surface = 0;
+    do surface = below(scene.surfaces.size());
+    while (scene.surfaces[surface].monitor >= 0 || scene.surfaces[surface].triangles.empty());
+    const TriangleRef where{static_cast<uint32_t>(surface),
+                            static_cast<uint32_t>(below(scene.surfaces[surface].triangles.size()))};
+    const double u = std::sqrt(choice.random.next()), v = choice.random.next();
+    SurfacePoint point = surface_point(scene, where, {1 - u, u * (1 - v), u * v});
+    point.normal = normalize_or(point.geometric_normal + 0.9 * tilt * choice.vector(), point.geometric_normal);
+    return point;
+}
+
+void Deviations::add(double value, double truth) {
+    errors.push_back(std::isfinite(value) ? std::abs(value - truth) : INFINITY);
+    penumbra += truth > 1e-6 && truth < 1 - 1e-6;
+}
+
+double Deviations::rmse() const {
+    double sum = 0;
+    for (const double error : errors) sum += error * error;
+    return errors.empty() ? 0 : std::sqrt(sum / static_cast<double>(errors.size()));
+}
+
+double Deviations::largest() const {
+    return errors.empty() ? 0 : *std::max_element(errors.begin(), errors.end());
+}
+
+double Deviations::quantile(double share) const {
+    if (errors.empty()) return 0;
+    std::vector<double> sorted = errors;
+    std::sort(sorted.begin(), sorted.end());
+    return sorted[static_cast<size_t>(share * static_cast<double>(sorted.size() - 1))];
+}
+
+}  // namespace surimi::test
