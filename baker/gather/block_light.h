@@ -17,7 +17,9 @@ namespace surimi {
 struct BlockSurfaces {
     std::vector<TexelSurface> texels;
     std::vector<SurfacePoint> centers;
-    std::vector<uint64_t> keys;  ///< of the texels' random numbers, without the monitor
+    std::vector<uint64_t> keys;    ///< of the texels' random numbers, without the monitor
+    std::vector<char> is_curved;   ///< one point says little about such a texel
+    std::vector<char> is_pierced;  ///< something stands on it: part of it may be dark
     TileGrid grid{};
     std::array<Vec3, 8> corners;  ///< of a box around all places that rays start from, relative to RayScene::center()
     double texel_size = 0;        ///< metres, root of the largest texel's area

@@ -31,6 +31,29 @@ std::array<Vec3, 8> box_around(std::span<const Vec3> places, const Vec3& normal)
     return corners;
 }
 
+/// Do the shading normals at its corners differ by more than some 15 degrees from the one at the centre?
+bool is_curved(const TexelSurface& surface) {
+    const Vec3 normal = surface.center().normal;
+    bool is_curved = false;
+    surface.for_each_corner(
+        [&](const SurfacePoint& corner) { is_curved = is_curved || glm::dot(corner.normal, normal) < 0.966; });
+    return is_curved;
+}
+
+/// Does something stand on the texel or come through it? Rays from its centre to its corners, just above the surface.
+bool is_pierced(const TexelSurface& surface, const RayScene& rays) {
+    const Vec3 origin = rays.ray_origin(surface.center()) - rays.center();
+    bool is_pierced = false;
+    RayPacket packet;
+    surface.for_each_corner([&](const SurfacePoint& corner) {
+        packet.add(origin, rays.ray_origin(corner) - rays.center(), 1);
+        if (packet.size < RayPacket::capacity) return;
+        is_pierced = is_pierced || rays.occluded(packet, RayScene::no_monitor) != 0;
+        packet.size = 0;
+    });
+    return is_pierced || (packet.size > 0 && rays.occluded(packet, RayScene::no_monitor) != 0);
+}
+
 }  // namespace
 
 BlockSurfaces block_surfaces(const Scene& scene, const Atlas& atlas, const Texels& texels, const RayScene& rays,
@@ -54,6 +77,8 @@ BlockSurfaces block_surfaces(const Scene& scene, const Atlas& atlas, const Texel
             places.push_back(rays.ray_origin(corner) - rays.center());
             normals += corner.geometric_normal;
         });
+        block.is_curved.push_back(is_curved(surface));
+        block.is_pierced.push_back(is_pierced(surface, rays));
         // A texel of one plane may be judged at a place between its pieces.
         places.push_back(rays.ray_origin(block.centers.back()) - rays.center());
         largest = std::max(largest, surface.area());

@@ -212,26 +212,51 @@ SamplePoints::SamplePoints() {
     const std::span<const size_t> order(all);
     for (uint32_t m = 1; m < partner.size(); ++m)
         partner[m] = {partner_of(m, order.first(2)), partner_of(m, order), partner_of(m, order.first(1)),
-                      partner_of(m, order.subspan(1, 1))};
+                      partner_of(m, order.subspan(1, 1)), partner_of(m, order.last(2))};
 }
 
-MonteCarloEstimate monte_carlo(const MonteCarloTask& task, const TexelSurface& surface) {
-    const Scrambling seeds = scrambling(task.key);
-    const auto bounded = [](int count) {
-        return std::clamp<size_t>(static_cast<size_t>(std::max(count, 1)), 1, SamplePoints::capacity);
-    };
-    const size_t most = bounded(task.samples > 0 ? task.samples : task.most_samples);
+namespace {
+
+/// Exactly so many samples of one sequence.
+MonteCarloEstimate fixed(const MonteCarloTask& task, const TexelSurface& surface) {
     Samples samples;
-    size_t count = task.samples > 0 ? most : std::min(first_round, most);
-    double error = 1;
-    while (true) {
-        extend(task, surface, seeds, count, samples);
-        error = standard_error(task.points, samples);
-        const bool is_hopeless = !(samples.all > 0) && count >= hopeless;
-        if (error <= task.error || count == most || is_hopeless) break;
-        count = std::min(2 * count, most);
+    const auto count = std::clamp<size_t>(static_cast<size_t>(task.samples), 1, SamplePoints::capacity);
+    extend(task, surface, scrambling(task.key), count, samples);
+    return {samples.visibility(), standard_error(task.points, samples), samples.rays, samples.all > 0};
+}
+
+}  // namespace
+
+MonteCarloEstimate monte_carlo(const MonteCarloTask& task, const TexelSurface& surface) {
+    if (task.samples > 0) return fixed(task, surface);
+    constexpr size_t replicates = 8;
+    constexpr size_t most_of_one = SamplePoints::capacity / replicates;
+    static thread_local std::array<Samples, replicates> all;  // half a megabyte each
+    for (Samples& samples : all) samples.count = samples.rays = 0, samples.all = samples.seen = 0, samples.largest = 0;
+    MonteCarloEstimate result;
+    for (size_t count = first_round / replicates;; count *= 2) {
+        double weight = 0, seen = 0, largest = 0;
+        result.rays = 0;
+        for (size_t r = 0; r < replicates; ++r) {
+            extend(task, surface, scrambling(hash(task.key, r)), count, all[r]);
+            weight += all[r].all;
+            seen += all[r].seen;
+            largest = std::max(largest, static_cast<double>(all[r].largest));
+            result.rays += all[r].rays;
+        }
+        result.is_lit = weight > 0;
+        result.visibility = weight > 0 ? seen / weight : 0;
+        double squares = 0;
+        for (const Samples& samples : all) {
+            const double deviation = samples.seen - samples.all * result.visibility;
+            squares += deviation * deviation;
+        }
+        // Sum of R deviations: variance R / (R - 1) of the sum of squares.
+        const double variance = squares * replicates / (replicates - 1.0);
+        result.error = weight > 0 ? std::min(1.0, std::sqrt(variance + largest * largest) / weight) : 1;
+        const bool is_hopeless = !(weight > 0) && count * replicates >= hopeless;
+        if (result.error <= task.error || count >= most_of_one || is_hopeless) return result;
     }
-    return {samples.visibility(), error, samples.rays, samples.all > 0};
 }
 
 }  // namespace surimi

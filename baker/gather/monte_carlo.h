@@ -25,7 +25,7 @@ struct SamplePoints {
     std::array<std::vector<uint32_t>, 4> digits;
     /// [log2 of the number of samples][way to cut space into cells]: sample i shares its cell with sample i ^ partner
     /// (M52).
-    static constexpr size_t cell_shapes = 4;
+    static constexpr size_t cell_shapes = 5;
     std::array<std::array<uint32_t, cell_shapes>, 17> partner{};
 };
 

@@ -55,12 +55,20 @@ PointVisibility by_lines(const MonitorSetup& setup, uint64_t key, const Toleranc
     return best;
 }
 
-/// Does moving by half a texel bring the edge's shadow across the panel? By bounding boxes; edges below the surface's
-/// own plane do not count.
+double distance_to_segment(const Vec3& a, const Vec3& b) {
+    const Vec3 d = b - a;
+    const double length2 = glm::dot(d, d);
+    const double at = length2 > 0 ? std::clamp(-glm::dot(a, d) / length2, 0.0, 1.0) : 0;
+    return glm::length(a + at * d);
+}
+
+/// Can the edge's shadow pass over the panel within the texel? By bounding boxes of what moving by half a texel does;
+/// edges in the surface's own plane, or below it, only where they cross the texel.
 bool may_sweep(const PanelView& view, const Candidates& c, size_t i, const Vec3& geometric_normal, double half_texel) {
     const Vec3 a = Vec3(c.ax[i], c.ay[i], c.az[i]) - view.origin, b = Vec3(c.bx[i], c.by[i], c.bz[i]) - view.origin;
     const double level = 1e-3 * half_texel;
-    if (glm::dot(geometric_normal, a) <= level && glm::dot(geometric_normal, b) <= level) return false;
+    if (glm::dot(geometric_normal, a) <= level && glm::dot(geometric_normal, b) <= level)
+        return distance_to_segment(a, b) < 1.5 * half_texel;  // half the diagonal, and a little
     const Panel& panel = *view.panel;
     const Vec2 step = half_texel / Vec2(glm::length(panel.axis_s), glm::length(panel.axis_t));
     Vec2 low(INFINITY), high(-INFINITY);

@@ -107,22 +107,28 @@ TexelLight by_rays(const MonitorSetup& setup, const TexelSurface& surface, doubl
 }
 
 TexelLight refined(const MonitorSetup& setup, const BlockSight& sight, const TexelSurface& surface,
-                   const PointLight& center, uint64_t key, PointWorkspace& work) {
+                   const PointLight& center, int first_side, uint64_t key, PointWorkspace& work) {
     const Tolerances limits = tolerances(setup.settings);
     const bool may_trace = !setup.settings.is_exact && setup.settings.method != Method::split;
+    const double cost_of_point =
+        cost_of_projecting(sight.candidates()) + cost_of_scan(work.segments.count, limits.first_lines);
     TexelLight best{center, 1};
-    // Halving the cells leaves a quarter of the error where light is smooth, so a step's change is three times what it
-    // leaves; sixteen points are worth trying where four predict that they will do.
-    for (const int side : {2, 4}) {
+    double change_before = 1;
+    for (int side = first_side; side <= 16; side *= 2) {
         TexelLight next = average_over_cells(setup, sight, surface, side, key, work);
         const bool is_usable = !next.light.has_failed && !next.light.is_dear;
         const double change = std::abs(next.light.visibility() - best.light.visibility());
         next = with_cost_of(next, best);
         best = next;
+        // Halving the cells leaves a quarter of the error where light is smooth: a third of what the step changed.
         best.light.error = std::hypot(next.light.error, change / 3);
         if (!is_usable) break;
         if (change / 3 <= limits.footprint) return best;
-        if (change / 15 > limits.footprint) break;
+        if (side > 2 && change > 0.6 * change_before) break;  // not smooth at all
+        change_before = change;
+        double points = side * side, left = change / 3;
+        for (; left > limits.footprint; left /= 4) points *= 4;
+        if (may_trace && points * cost_of_point > cost_of_average_by_rays(limits.monte_carlo)) break;
     }
     if (may_trace) return with_cost_of(by_rays(setup, surface, best.light.unshadowed, key), best);
     return with_cost_of(by_many_points(setup, sight, surface, key, work), best);

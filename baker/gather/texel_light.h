@@ -19,10 +19,11 @@ struct TexelLight {
 TexelLight average_over_cells(const MonitorSetup& setup, const BlockSight& sight, const TexelSurface& surface, int side,
                               uint64_t key, PointWorkspace& work);
 
-/// Refines from the value at the centre until two steps agree: four points, then sixteen. Where shadows are sharper
-/// than that, or a point failed, by rays; with settings.is_exact or Method::split by more and more points.
+/// Refines from the value at the centre: four points, sixteen and so on, until two steps agree or rays would be
+/// cheaper, because shadows are sharper than that or silhouettes too many. With settings.is_exact or Method::split by
+/// more and more points. `first_side`: 2, or 4 for a texel about which four points say little.
 TexelLight refined(const MonitorSetup& setup, const BlockSight& sight, const TexelSurface& surface,
-                   const PointLight& center, uint64_t key, PointWorkspace& work);
+                   const PointLight& center, int first_side, uint64_t key, PointWorkspace& work);
 
 /// By rays; `unshadowed` > 0.
 TexelLight by_rays(const MonitorSetup& setup, const TexelSurface& surface, double unshadowed, uint64_t key);
