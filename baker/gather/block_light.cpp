@@ -144,17 +144,16 @@ class BlockLighter {
         const PointLight& center = work_.centers[i];
         if (center.unshadowed > 0 && work_.sight.is_hidden()) return {center, 1};
         const TexelSurface& surface = block_.texels[i];
-        const int first_side = block_.is_curved[i] || center.has_near ? 4 : 2;
+        const double error = footprint_error(differences);
         const auto refine = [&] {
-            return refined(setup_, work_.sight, surface, center, first_side, key(i), work_.point);
+            const int side = block_.is_curved[i] || center.has_near ? 4 : 2;
+            return refined(setup_, work_.sight, surface, {center, error, side}, key(i), work_.point);
         };
         if (!(center.unshadowed > 0)) return is_partly_lit(setup_, surface) ? refine() : TexelLight{center, 1};
         const bool may_trace = !setup_.settings.is_exact && setup_.settings.method != Method::split;
         if (may_trace && block_.is_pierced[i]) return by_rays(setup_, surface, center.unshadowed, key(i));
         if (center.has_failed || center.is_dear || block_.is_curved[i] || block_.is_pierced[i] || center.has_near)
             return refine();
-        // A 24th is the smooth case; a step between two texels shows as a difference of its own height.
-        const double error = footprint_error(differences);
         if (error > tolerances(setup_.settings).footprint / 2) return refine();
         TexelLight texel{center, 1};
         texel.light.error = std::hypot(center.error, error);

@@ -31,18 +31,19 @@ std::array<Vec3, 8> box_around(std::span<const Vec3> places, const Vec3& normal)
     return corners;
 }
 
-/// Do the shading normals at its corners differ by more than some 15 degrees from the one at the centre?
-bool is_curved(const TexelSurface& surface) {
-    const Vec3 normal = surface.center().normal;
+/// Do normals at its corners differ by more than some 15 degrees from those at the centre?
+bool is_curved(const TexelSurface& surface, const SurfacePoint& center) {
     bool is_curved = false;
-    surface.for_each_corner(
-        [&](const SurfacePoint& corner) { is_curved = is_curved || glm::dot(corner.normal, normal) < 0.966; });
+    surface.for_each_corner([&](const SurfacePoint& corner) {
+        is_curved = is_curved || glm::dot(corner.normal, center.normal) < 0.966 ||
+                    glm::dot(corner.geometric_normal, center.geometric_normal) < 0.966;
+    });
     return is_curved;
 }
 
 /// Does something stand on the texel or come through it? Rays from its centre to its corners, just above the surface.
-bool is_pierced(const TexelSurface& surface, const RayScene& rays) {
-    const Vec3 origin = rays.ray_origin(surface.center()) - rays.center();
+bool is_pierced(const TexelSurface& surface, const SurfacePoint& center, const RayScene& rays) {
+    const Vec3 origin = rays.ray_origin(center) - rays.center();
     bool is_pierced = false;
     RayPacket packet;
     surface.for_each_corner([&](const SurfacePoint& corner) {
@@ -77,8 +78,8 @@ BlockSurfaces block_surfaces(const Scene& scene, const Atlas& atlas, const Texel
             places.push_back(rays.ray_origin(corner) - rays.center());
             normals += corner.geometric_normal;
         });
-        block.is_curved.push_back(is_curved(surface));
-        block.is_pierced.push_back(is_pierced(surface, rays));
+        block.is_curved.push_back(is_curved(surface, block.centers.back()));
+        block.is_pierced.push_back(is_pierced(surface, block.centers.back(), rays));
         // A texel of one plane may be judged at a place between its pieces.
         places.push_back(rays.ray_origin(block.centers.back()) - rays.center());
         largest = std::max(largest, surface.area());

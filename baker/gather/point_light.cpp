@@ -124,7 +124,10 @@ PointLight light_at(const MonitorSetup& setup, const BlockSight& sight, const Su
         light.method = std::max(light.method, TexelMethod::certificate);
         if (panel_sight.is_hidden) continue;
         look_at(work.view, panel, origin, point.normal, point.geometric_normal);
-        if (work.view.open.empty()) continue;
+        if (work.view.open.empty()) {
+            light.has_near = light.has_near || !work.view.lit.empty();  // a neighbouring triangle may see it
+            continue;
+        }
         light.has_near = light.has_near || std::ranges::any_of(panel_sight.near, [&](size_t edge) {
                              return may_sweep(work.view, panel_sight.candidates, edge, point.geometric_normal,
                                               0.5 * work.texel_size);
