@@ -215,6 +215,29 @@ TEST(Candidates, OfAPointAreItsSilhouettesAndNoMore) {
     }
 }
 
+TEST(Candidates, HoldDoubledFacesThatAllShowTheirFront) {
+    Scene scene;  // edges that run alike are silhouettes just where both faces are seen from the same side
+    for (int copy = 0; copy < 2; ++copy) {
+        const uint32_t sheet = test::add_quad(scene, "sheet", {-1, -1, 1}, {-1, 1, 1}, {1, 1, 1}, {1, -1, 1});
+        scene.surfaces[sheet].positions.clear();
+        scene.surfaces[sheet].triangles.clear();
+        for (uint32_t i = 0; i < 100; ++i) {
+            const Vec3 at(0.1 * (i % 10) - 0.5, 0.1 * (i / 10) - 0.5, 1);
+            for (const Vec3& corner : {at, at + Vec3(0, 0.05, 0), at + Vec3(0.05, 0, 0)})
+                scene.surfaces[sheet].positions.push_back(corner);
+            scene.surfaces[sheet].triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+        }
+        scene.surfaces[sheet].normals.assign(300, Vec3(0, 0, -1));
+    }
+    const RayScene rays(scene);
+    const Silhouettes silhouettes = find_silhouettes(scene, rays);
+    ASSERT_EQ(silhouettes.edges.size(), 300u);
+    const std::vector<Vec3> panel = {{-4, -4, 1}, {4, -4, 1}, {4, 4, 1}, {-4, 4, 1}};
+    std::vector<uint32_t> found;
+    find_candidates(silhouettes, make_shaft(std::vector<Vec3>{{0, 0, -5}}, panel, scale), 0, found);
+    EXPECT_EQ(found.size(), 300u);
+}
+
 TEST(Candidates, LeaveOutTheMonitorsOwnEdges) {
     Scene scene;
     test::add_monitor(scene, "Monitor", 0, {0, 0, 2}, {0.5, 0, 0}, {0, 0.5, 0});
