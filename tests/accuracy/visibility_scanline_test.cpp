@@ -62,8 +62,8 @@ TEST_P(VisibilityScanline, KeepsTheErrorAmongAHundredThousandTriangles_M55) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Errors, VisibilityScanline, testing::Values(0.02, 0.004, 0.001),
-                         [](const testing::TestParamInfo<double>& info) {
-                             return "Error" + std::to_string(static_cast<int>(1e4 * info.param + 0.5));
+                         [](const testing::TestParamInfo<double>& error) {
+                             return "Error" + std::to_string(static_cast<int>(1e4 * error.param + 0.5));
                          });
 
 }  // namespace
