@@ -35,7 +35,7 @@ void expect_agreement_with_rays(const Scene& scene, int points, uint64_t seed) {
             normalised += error * error / (sigma * sigma);
         }
     }
-    ASSERT_GT(penumbra, points / 5);
+    ASSERT_GT(penumbra, points / 12);
     EXPECT_LT(std::sqrt(normalised / penumbra), 1);
 }
 

@@ -28,19 +28,20 @@ struct Map {
             if (s != quad) alone.surfaces[s].triangles.clear();
         texels = find_texels(alone, atlas);
     }
-    /// From cells x cells midpoints, weighed by their irradiance.
-    void find_truth(int cells) {
+    /// From `count` Sobol points, weighed by their irradiance. A grid of midpoints would be off by a whole row where a
+    /// shadow's edge runs along the texel.
+    void find_truth(uint32_t count) {
         truth.resize(texels.texels.size());
         parallel_for(truth.size(), 1, [&](size_t i) {
             const TexelSurface surface(judge.scene(), atlas, texels, texels.texels[i]);
+            const Scrambling seeds = scrambling(hash(77, i));
             double seen = 0, all = 0;
-            for (int y = 0; y < cells; ++y)
-                for (int x = 0; x < cells; ++x) {
-                    const test::SubtractedIrradiance at =
-                        judge.truth(surface.sample((x + 0.5) / cells, (y + 0.5) / cells));
-                    seen += at.shadowed;
-                    all += at.unshadowed;
-                }
+            for (uint32_t k = 0; k < count; ++k) {
+                const auto r = scrambled(sobol::point(k), seeds);
+                const test::SubtractedIrradiance at = judge.truth(surface.sample(r[0], r[1]));
+                seen += at.shadowed;
+                all += at.unshadowed;
+            }
             truth[i] = all > 0 ? seen / all : -1;
         });
     }
@@ -77,7 +78,7 @@ void expect_promise(const Deviations& found, double error, double slack) {
 
 TEST(VisibilityTexels, KeepThePromiseOnAFurnishedFloor) {
     Map map = furnished_floor(40);
-    map.find_truth(32);
+    map.find_truth(1024);
     for (const double error : {0.02, 0.004, 0.001}) {
         SCOPED_TRACE(error);
         GatherSettings settings;
@@ -90,7 +91,7 @@ TEST(VisibilityTexels, KeepThePromiseOnAFurnishedFloor) {
 
 TEST(VisibilityTexels, AreWithinAQuarterOfTheErrorWhenExact) {
     Map map = furnished_floor(32);
-    map.find_truth(32);
+    map.find_truth(1024);
     GatherSettings settings;
     settings.is_exact = true;
     const Deviations found = map.deviations(settings);
@@ -100,7 +101,7 @@ TEST(VisibilityTexels, AreWithinAQuarterOfTheErrorWhenExact) {
 
 TEST(VisibilityTexels, EveryMethodKeepsThePromise) {
     Map map = furnished_floor(24);
-    map.find_truth(32);
+    map.find_truth(1024);
     for (const Method method : {Method::split, Method::scanline, Method::monte_carlo}) {
         SCOPED_TRACE(static_cast<int>(method));
         GatherSettings settings;
@@ -115,7 +116,7 @@ TEST(VisibilityTexels, KeepThePromiseOnTheFloorOfTheStudysRoom) {
         test::add_quad(scene, "Receiver", {-4.5, 0.01, 4.5}, {4.5, 0.01, 4.5}, {4.5, 0.01, -4.5}, {-4.5, 0.01, -4.5});
     Map map(std::move(scene), floor, 96);
     std::erase_if(map.texels.texels, [](const Texel& texel) { return texel.index % 67 != 5; });
-    map.find_truth(24);
+    map.find_truth(512);
     for (const double error : {0.02, 0.004, 0.001}) {
         SCOPED_TRACE(error);
         GatherSettings settings;

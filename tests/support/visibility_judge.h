@@ -31,6 +31,9 @@ class VisibilityJudge {
     /// The engine's, by scanlines.
     double scanline(const SurfacePoint& point, double error, size_t monitor = 0) const;
 
+    /// Does a ray from there start on another surface, so that rounding decides on which side of it?
+    bool is_ambiguous(const SurfacePoint& point) const;
+
     /// As Embree sees a vertex: float relative to the scene's centre. In the scene's coordinates.
     Vec3 seen(const Vec3& vertex) const;
     /// A point above which rays start exactly at `origin`, on the front of triangle 0 of `surface`.
