@@ -80,7 +80,7 @@ void expect_exact(Kind kind, uint64_t seed) {
             const test::SubtractedIrradiance truth = judge.truth(point);
             if (truth.unshadowed < 1e-6) continue;
             const double value = judge.split(point);
-            found.add(value, truth.visibility());
+            found.add(value, truth.visibility(), point);
             EXPECT_NEAR(value, truth.visibility(), 1e-6 + test::float_ratio) << "scene " << s << " point " << i;
         }
     }
@@ -112,7 +112,7 @@ TEST(VisibilityFuzz, ScanlinesKeepTheirError_M55) {
         for (int i = 0; i < 16; ++i) {
             const SurfacePoint point = test::random_point(judge.scene(), choice, i % 2);
             const test::SubtractedIrradiance truth = judge.truth(point);
-            if (truth.unshadowed > 1e-6) found.add(judge.scanline(point, 0.004), truth.visibility());
+            if (truth.unshadowed > 1e-6) found.add(judge.scanline(point, 0.004), truth.visibility(), point);
         }
     }
     EXPECT_GT(found.penumbra, static_cast<size_t>(scenes));

@@ -32,8 +32,8 @@ struct Both {
     double truth_sum = 0;
     void add(const VisibilityJudge& judge, const SurfacePoint& point) {
         const double truth = judge.truth(point).visibility();
-        split.add(judge.split(point), truth);
-        scanline.add(judge.scanline(point, 0.001), truth);
+        split.add(judge.split(point), truth, point);
+        scanline.add(judge.scanline(point, 0.001), truth, point);
         truth_sum += truth;
     }
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <utility>
 
 namespace surimi::test {
@@ -74,8 +75,16 @@ SurfacePoint random_point(const Scene& scene, Choice& choice, double tilt) {
     return point;
 }
 
-void Deviations::add(double value, double truth) {
-    errors.push_back(std::isfinite(value) ? std::abs(value - truth) : INFINITY);
+void Deviations::add(double value, double truth, const SurfacePoint& where) {
+    const double error = std::isfinite(value) ? std::abs(value - truth) : INFINITY;
+    if (error > most_) {
+        std::ostringstream text;
+        text << "worst: " << value << " for " << truth << " on surface " << where.triangle.surface << " at ("
+             << where.position.x << ", " << where.position.y << ", " << where.position.z << ")";
+        worst = text.str();
+    }
+    most_ = std::max(most_, error);
+    errors.push_back(error);
     penumbra += truth > 1e-6 && truth < 1 - 1e-6;
 }
 
@@ -86,7 +95,7 @@ double Deviations::rmse() const {
 }
 
 double Deviations::largest() const {
-    return errors.empty() ? 0 : *std::max_element(errors.begin(), errors.end());
+    return most_;
 }
 
 double Deviations::quantile(double share) const {

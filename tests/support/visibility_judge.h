@@ -3,6 +3,7 @@
 // between the two.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "baker/gather/gather.h"
@@ -51,15 +52,21 @@ class VisibilityJudge {
 SurfacePoint random_point(const Scene& scene, Choice& choice, double tilt);
 
 /// Absolute errors.
-struct Deviations {
+class Deviations {
+  public:
     std::vector<double> errors;
     size_t penumbra = 0;  ///< of them where neither nothing nor all is seen
 
-    void add(double value, double truth);
+    std::string worst;  ///< where, and what it was and should be
+
+    void add(double value, double truth, const SurfacePoint& where);
     double rmse() const;
     double largest() const;
     /// The error that this share of them does not exceed.
     double quantile(double share) const;
+
+  private:
+    double most_ = 0;
 };
 
 }  // namespace surimi::test
