@@ -35,15 +35,15 @@ Deviations against_subtraction(const VisibilityJudge& judge, int points, double 
 
 TEST_P(VisibilityScanline, KeepsTheErrorInTheStudysRoom_M54) {
     const VisibilityJudge judge(test::room_with(test::Contents::low));
-    const Deviations found = against_subtraction(judge, 3000, GetParam());
-    EXPECT_GT(found.penumbra, 1000u);
+    const Deviations found = against_subtraction(judge, test::cases(3000), GetParam());
+    EXPECT_GT(found.penumbra, test::cases(1000));
     expect_promise(found, GetParam());
 }
 
 TEST_P(VisibilityScanline, KeepsTheErrorWhereGeometryIsBroken_M54) {
     const VisibilityJudge judge(test::nasty_room());
-    const Deviations found = against_subtraction(judge, 3000, GetParam());
-    EXPECT_GT(found.penumbra, 1000u);
+    const Deviations found = against_subtraction(judge, test::cases(3000), GetParam());
+    EXPECT_GT(found.penumbra, test::cases(1000));
     expect_promise(found, GetParam());
 }
 
@@ -52,12 +52,13 @@ TEST_P(VisibilityScanline, KeepsTheErrorAmongAHundredThousandTriangles_M55) {
     Deviations found;
     Choice choice{Random{12}};
     for (size_t monitor = 0; monitor < 3; ++monitor)
-        for (int i = 0; i < 1200; ++i) {  // of the plain surfaces: the truth is splitting, which is judged elsewhere
+        for (int i = 0; i < test::cases(1200);
+             ++i) {  // of the plain surfaces: the truth is splitting, which is judged elsewhere
             const SurfacePoint point = test::random_point(judge.scene(), choice, 0);
             if (i % 3 != 0 && !judge.scene().surfaces[point.triangle.surface].name.starts_with("Plain_")) continue;
             found.add(judge.scanline(point, GetParam(), monitor), judge.split(point, monitor), point);
         }
-    EXPECT_GT(found.penumbra, 400u);
+    EXPECT_GT(found.penumbra, test::cases(400));
     expect_promise(found, GetParam());
 }
 

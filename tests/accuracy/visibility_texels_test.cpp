@@ -14,6 +14,9 @@ namespace {
 using test::Deviations;
 using test::VisibilityJudge;
 
+constexpr double reference_error = test::is_slow_build ? 4e-3 : 5e-4;
+constexpr uint32_t references = test::is_slow_build ? 128 : 1024;  // points of a texel
+
 /// A map of one quad, and the truth of its texels.
 struct Map {
     VisibilityJudge judge;
@@ -80,21 +83,21 @@ void expect_promise(const Deviations& found, double error, double slack) {
 }
 
 TEST(VisibilityTexels, KeepThePromiseOnAFurnishedFloor) {
-    Map map = furnished_floor(40);
-    map.find_truth(1024);
+    Map map = furnished_floor(test::is_slow_build ? 16 : 40);
+    map.find_truth(references);
     for (const double error : {0.02, 0.004, 0.001}) {
         SCOPED_TRACE(error);
         GatherSettings settings;
         settings.error = error;
         const Deviations found = map.deviations(settings);
-        EXPECT_GT(found.penumbra, 500u);
-        expect_promise(found, error, 5e-4);
+        EXPECT_GT(found.penumbra, test::cases(500));
+        expect_promise(found, error, reference_error);
     }
 }
 
 TEST(VisibilityTexels, AreWithinAQuarterOfTheErrorWhenExact) {
-    Map map = furnished_floor(32);
-    map.find_truth(1024);
+    Map map = furnished_floor(test::is_slow_build ? 12 : 32);
+    map.find_truth(references);
     GatherSettings settings;
     settings.is_exact = true;
     const Deviations found = map.deviations(settings);
@@ -103,13 +106,13 @@ TEST(VisibilityTexels, AreWithinAQuarterOfTheErrorWhenExact) {
 }
 
 TEST(VisibilityTexels, EveryMethodKeepsThePromise) {
-    Map map = furnished_floor(24);
-    map.find_truth(1024);
+    Map map = furnished_floor(test::is_slow_build ? 12 : 24);
+    map.find_truth(references);
     for (const Method method : {Method::split, Method::scanline, Method::monte_carlo}) {
         SCOPED_TRACE(static_cast<int>(method));
         GatherSettings settings;
         settings.method = method;
-        expect_promise(map.deviations(settings), settings.error, 5e-4);
+        expect_promise(map.deviations(settings), settings.error, reference_error);
     }
 }
 
@@ -118,13 +121,14 @@ TEST(VisibilityTexels, KeepThePromiseOnTheFloorOfTheStudysRoom) {
     const uint32_t floor =
         test::add_quad(scene, "Receiver", {-4.5, 0.01, 4.5}, {4.5, 0.01, 4.5}, {4.5, 0.01, -4.5}, {-4.5, 0.01, -4.5});
     Map map(std::move(scene), floor, 96);
-    std::erase_if(map.texels.texels, [](const Texel& texel) { return texel.index % 67 != 5; });
-    map.find_truth(512);
+    std::erase_if(map.texels.texels,
+                  [](const Texel& texel) { return texel.index % (test::is_slow_build ? 670 : 67) != 5; });
+    map.find_truth(references / 2);
     for (const double error : {0.02, 0.004, 0.001}) {
         SCOPED_TRACE(error);
         GatherSettings settings;
         settings.error = error;
-        expect_promise(map.deviations(settings), error, 1e-3);
+        expect_promise(map.deviations(settings), error, 2 * reference_error);
     }
 }
 

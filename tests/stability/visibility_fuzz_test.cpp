@@ -13,11 +13,7 @@ using test::Deviations;
 using test::Mesh;
 using test::VisibilityJudge;
 
-#if defined(__SANITIZE_ADDRESS__)
-constexpr int scenes = 40;
-#else
-constexpr int scenes = 400;
-#endif
+constexpr int scenes = test::cases(400);
 
 enum class Kind { boxes, sheets, soup, everything };
 
@@ -84,7 +80,7 @@ void expect_exact(Kind kind, uint64_t seed) {
             EXPECT_NEAR(value, truth.visibility(), 1e-6 + test::float_ratio) << "scene " << s << " point " << i;
         }
     }
-    EXPECT_GT(found.penumbra, static_cast<size_t>(scenes));
+    EXPECT_GT(found.penumbra, scenes);
     EXPECT_LT(found.rmse(), 1e-7);
 }
 
@@ -115,7 +111,7 @@ TEST(VisibilityFuzz, ScanlinesKeepTheirError_M55) {
             if (truth.unshadowed > 1e-6) found.add(judge.scanline(point, 0.004), truth.visibility(), point);
         }
     }
-    EXPECT_GT(found.penumbra, static_cast<size_t>(scenes));
+    EXPECT_GT(found.penumbra, scenes);
     EXPECT_LE(found.rmse(), 0.001);
     EXPECT_LE(found.quantile(0.999), 0.004);
     EXPECT_LE(found.largest(), 0.02);

@@ -12,6 +12,16 @@
 
 namespace surimi::test {
 
+#if defined(__SANITIZE_ADDRESS__)
+inline constexpr bool is_slow_build = true;
+#else
+inline constexpr bool is_slow_build = false;
+#endif
+/// A number of cases, or fewer with sanitizers.
+constexpr int cases(int count) {
+    return is_slow_build ? (count + 9) / 10 : count;
+}
+
 /// IrradianceEstimate is float: a ratio of two of them is off by up to this.
 inline constexpr double float_ratio = 0x1p-23;
 
@@ -55,7 +65,7 @@ SurfacePoint random_point(const Scene& scene, Choice& choice, double tilt);
 class Deviations {
   public:
     std::vector<double> errors;
-    size_t penumbra = 0;  ///< of them where neither nothing nor all is seen
+    int penumbra = 0;  ///< of them where neither nothing nor all is seen
 
     std::string worst;  ///< where, and what it was and should be
 
