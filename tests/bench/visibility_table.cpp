@@ -30,7 +30,7 @@ struct Options {
     int size = 512;
     size_t texels = 8192;      ///< about so many, in random tiles of 16 x 16; 0: all
     size_t references = 1000;  ///< texels with a reference, for each monitor
-    int most_samples = 4096;   ///< of the Monte Carlo that is measured
+    int most_samples = 16384;  ///< of the Monte Carlo that is measured
     std::vector<std::string> scenes;
 };
 
@@ -122,22 +122,26 @@ struct Reference {
 /// Values of the texels with references.
 struct Measured {
     double rmse = 0;
-    double beyond = 0;  ///< share of texels further off than the error asked for and 3 standard errors
+    double least_rmse = 0;  ///< below it the references cannot tell
+    double beyond = 0;      ///< share of texels further off than the error asked for and 3 standard errors
 };
 
 /// The two references' errors are independent, so the mean product of both differences is free of their variance.
 template <class Value>
 Measured measure(const std::vector<Reference>& references, double error, const Value& value_of) {
-    double sum = 0;
+    double sum = 0, squares = 0;
     size_t beyond = 0;
     for (size_t i = 0; i < references.size(); ++i) {
         const Reference& r = references[i];
         const double value = value_of(i);
-        sum += (value - r.first) * (value - r.second);
+        const double square = (value - r.first) * (value - r.second);
+        sum += square;
+        squares += square * square;
         beyond += std::abs(value - 0.5 * (r.first + r.second)) > error + 3 * r.error;
     }
     const double count = static_cast<double>(references.size());
-    return {std::sqrt(std::max(0.0, sum / count)), static_cast<double>(beyond) / count};
+    const double deviation = std::sqrt(std::max(0.0, squares / count - sum * sum / (count * count)) / count);
+    return {std::sqrt(std::max(0.0, sum / count)), std::sqrt(deviation), static_cast<double>(beyond) / count};
 }
 
 /// Everything about one monitor.
@@ -289,8 +293,7 @@ void run_monitor(const Job& job, size_t monitor, const Options& options, const s
         });
         const double texels = static_cast<double>(lit.size());
         const double microseconds = 1e6 * seconds[s] / texels;
-        // Below 2e-5, what is left of the references' noise decides.
-        const double rmse = std::max(found.rmse, 2e-5);
+        const double rmse = std::max({found.rmse, found.least_rmse, 1e-6});
         const CurvePoint equal = at_rmse(curve, rmse);
         const double uniform = std::pow(deviation / rmse, 2) * curve.back().microseconds / curve.back().samples;
         std::printf("| %s %s | %s | %.2f | %.2f | %.1f | %.1e | %.2f %% | %s%.0f | %.1f | %.1f | %.0f |\n",
@@ -346,7 +349,7 @@ int main(int argc, char** argv) {
     surimi::Options options;
     if (!surimi::read_options(argc, argv, options)) {
         std::fputs(
-            "usage: visibility_table [--size 512] [--texels 8192] [--references 1000] [--samples 4096]\n"
+            "usage: visibility_table [--size 512] [--texels 8192] [--references 1000] [--samples 16384]\n"
             "                        low|mid|high|leaf|million|FILE.glb ...\n",
             stderr);
         return 2;
