@@ -173,5 +173,23 @@ TEST(VisibilityTexels, NothingInTheWayIsExactlyOneAndAClosedBoxExactlyZero) {
     }
 }
 
+TEST(VisibilityTexels, OneFacetHidesWholeBlocksForOneRayEach_M51) {
+    Scene scene;
+    const uint32_t floor = test::add_quad(scene, "Floor", {-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2});
+    test::add_monitor(scene, "Monitor_R", 0, {0.2, 2.5, -0.1}, {0.8, 0.02, 0}, {0, 0.01, 0.45});
+    test::add_quad(scene, "Ceiling", {-9, 1, 9}, {9, 1.125, 9}, {9, 1.25, -9}, {-9, 1.125, -9});  // in one plane
+    const Map map(std::move(scene), floor, 64);
+    GatherSettings settings;
+    settings.error = 0.001;
+    const Gathered gathered = map.gather_with(settings);
+    for (const IrradianceEstimate& e : gathered.estimates) {
+        EXPECT_EQ(e.method, TexelMethod::certificate);
+        EXPECT_EQ(e.shadowed, 0);
+    }
+    EXPECT_GE(gathered.statistics.blocks, 64u * 64u / 256);
+    EXPECT_EQ(gathered.statistics.shadowed_blocks, gathered.statistics.blocks);
+    EXPECT_LE(gathered.statistics.rays(), gathered.statistics.blocks);
+}
+
 }  // namespace
 }  // namespace surimi
