@@ -108,7 +108,7 @@ Bake bake(const Scene& scene, const BakeSettings& settings, const Progress& prog
     result.warnings.insert(result.warnings.end(), result.atlas.warnings.begin(), result.atlas.warnings.end());
     stopwatch.finish("rays");
 
-    const Silhouettes silhouettes;
+    const Silhouettes silhouettes = find_silhouettes(scene, rays);
     stopwatch.finish("silhouettes");
 
     result.error = settings.gather.error;

@@ -82,7 +82,8 @@ size_t look_from(BlockSight& sight, const MonitorSetup& setup, std::span<const V
     sight.count = 0;
     sight.has_cutouts = false;
     double scale = 0;
-    for (const Vec3& corner : corners) scale = std::max({scale, std::abs(corner.x), std::abs(corner.y), std::abs(corner.z)});
+    for (const Vec3& corner : corners)
+        scale = std::max({scale, std::abs(corner.x), std::abs(corner.y), std::abs(corner.z)});
     size_t rays = 0;
     for (size_t i = 0; i < setup.panels.size(); ++i) {
         const Panel& panel = setup.panels[i];

@@ -17,12 +17,12 @@ struct Box {
     Vec3f low{std::numeric_limits<float>::infinity()}, high{-std::numeric_limits<float>::infinity()};
 };
 
-void grow(Box& box, const Vec3f& place) {
+inline void grow(Box& box, const Vec3f& place) {
     box.low = glm::min(box.low, place);
     box.high = glm::max(box.high, place);
 }
 
-void grow(Box& box, const Box& other) {
+inline void grow(Box& box, const Box& other) {
     box.low = glm::min(box.low, other.low);
     box.high = glm::max(box.high, other.high);
 }
@@ -158,19 +158,10 @@ EdgeNode node_of(const Box& box) {
     return node;
 }
 
-/// Appends the subtree of a range. Ranges of at most `task_size` items become leaves whose number is that of a task,
-/// when `tasks` is given.
+/// Appends the subtree of a range.
 template <class Item>
-void append(std::vector<Item>& items, const Range& range, std::vector<EdgeNode>& nodes, std::vector<Range>* tasks,
-            size_t task_size) {
-    const size_t count = range.end - range.begin;
-    const size_t index = nodes.size();
-    if (tasks && count <= task_size) {
-        nodes.emplace_back().count = 1;
-        nodes.back().first = static_cast<uint32_t>(tasks->size());
-        tasks->push_back(range);
-        return;
-    }
+void append(std::vector<Item>& items, const Range& range, std::vector<EdgeNode>& nodes) {
+    const size_t count = range.end - range.begin, index = nodes.size();
     const Division division = divide(items, range);
     nodes.push_back(node_of(division.box));
     if (count <= leaf_size) {
@@ -178,50 +169,48 @@ void append(std::vector<Item>& items, const Range& range, std::vector<EdgeNode>&
         nodes[index].count = static_cast<uint32_t>(count);
         return;
     }
-    append(items, {range.begin, division.middle, range.depth + 1}, nodes, tasks, task_size);
+    append(items, {range.begin, division.middle, range.depth + 1}, nodes);
     nodes[index].first = static_cast<uint32_t>(nodes.size());
-    append(items, {division.middle, range.end, range.depth + 1}, nodes, tasks, task_size);
+    append(items, {division.middle, range.end, range.depth + 1}, nodes);
 }
 
-/// The upper part of the tree with the tasks' subtrees in place of its leaves.
-struct Assembly {
-    const std::vector<EdgeNode>& upper;
-    std::vector<std::vector<EdgeNode>>& subtrees;
-    std::vector<EdgeNode> nodes;
-
-    void append(size_t index) {
-        if (upper[index].count > 0) {
-            std::vector<EdgeNode>& subtree = subtrees[upper[index].first];
-            const auto base = static_cast<uint32_t>(nodes.size());
-            for (EdgeNode& node : subtree)
-                if (node.count == 0) node.first += base;
-            nodes.insert(nodes.end(), subtree.begin(), subtree.end());
-            std::vector<EdgeNode>().swap(subtree);
-            return;
-        }
-        const size_t parent = nodes.size();
-        nodes.push_back(upper[index]);
-        append(index + 1);
-        nodes[parent].first = static_cast<uint32_t>(nodes.size());
-        append(upper[index].first);
+/// Appends a subtree that was built on its own.
+void append(const std::vector<EdgeNode>& subtree, std::vector<EdgeNode>& nodes) {
+    const auto base = static_cast<uint32_t>(nodes.size());
+    for (EdgeNode node : subtree) {
+        if (node.count == 0) node.first += base;
+        nodes.push_back(node);
     }
-};
+}
+
+/// The subtree of a range, its halves in parallel while they are large.
+template <class Item>
+std::vector<EdgeNode> build(std::vector<Item>& items, const Range& range) {
+    constexpr size_t task_size = 1 << 14;
+    std::vector<EdgeNode> nodes;
+    if (range.end - range.begin <= task_size) {
+        append(items, range, nodes);
+        return nodes;
+    }
+    const Division division = divide(items, range);
+    const std::array<Range, 2> halves = {Range{range.begin, division.middle, range.depth + 1},
+                                         Range{division.middle, range.end, range.depth + 1}};
+    std::array<std::vector<EdgeNode>, 2> subtrees;
+    parallel_for(2, 1, [&](size_t half) { subtrees[half] = build(items, halves[half]); });
+    nodes.reserve(1 + subtrees[0].size() + subtrees[1].size());
+    nodes.push_back(node_of(division.box));
+    append(subtrees[0], nodes);
+    nodes[0].first = static_cast<uint32_t>(nodes.size());
+    append(subtrees[1], nodes);
+    return nodes;
+}
 
 template <class Item>
 std::vector<EdgeNode> build(std::vector<Item>& items) {
     if (items.empty()) return {};
-    const size_t task_size = std::max<size_t>(1024, items.size() / 64);
-    std::vector<EdgeNode> upper;
-    std::vector<Range> tasks;
-    append(items, Range{0, items.size(), 0}, upper, &tasks, task_size);
-    std::vector<std::vector<EdgeNode>> subtrees(tasks.size());
-    parallel_for(tasks.size(), 1, [&](size_t t) { append<Item>(items, tasks[t], subtrees[t], nullptr, 0); });
-    Assembly assembly{upper, subtrees, {}};
-    size_t count = upper.size() - tasks.size();
-    for (const auto& subtree : subtrees) count += subtree.size();
-    assembly.nodes.reserve(count);
-    assembly.append(0);
-    return std::move(assembly.nodes);
+    std::vector<EdgeNode> nodes = build(items, {0, items.size(), 0});
+    nodes.shrink_to_fit();
+    return nodes;
 }
 
 }  // namespace

@@ -25,5 +25,7 @@ double cost_of_projecting(size_t candidates);
 double cost_of_split(size_t segments);
 double cost_of_scan(size_t segments, int lines);
 double cost_of_monte_carlo(double standard_error);
+/// Where a texel's points differ as well: shadows that are sharper than the texel.
+double cost_of_average_by_rays(double standard_error);
 
 }  // namespace surimi

@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <bit>
 
 #include "baker/gather/box_tree.h"
 
 namespace surimi {
 namespace {
 
-/// Bit p: plane p of the shaft may still cut what is being tested. Planes beyond the 64th are not used for nodes.
+/// Bit p: plane p of the shaft may still cut what is being tested. Planes beyond the 64th are left out: then more is
+/// found than need be.
 using PlaneMask = uint64_t;
+
+size_t first_of(PlaneMask mask) {
+    return static_cast<size_t>(std::countr_zero(mask));
+}
 
 PlaneMask all_planes(const Shaft& shaft) {
     return shaft.planes.size() >= 64 ? ~PlaneMask{0} : (PlaneMask{1} << shaft.planes.size()) - 1;
@@ -20,7 +26,7 @@ bool misses(const Shaft& shaft, const Vec3f& low, const Vec3f& high, PlaneMask& 
     const Vec3 center = 0.5 * (Vec3(low) + Vec3(high)), half = 0.5 * (Vec3(high) - Vec3(low));
     PlaneMask cutting = 0;
     for (PlaneMask rest = mask; rest != 0; rest &= rest - 1) {
-        const Shaft::Plane& plane = shaft.planes[static_cast<size_t>(__builtin_ctzll(rest))];
+        const Shaft::Plane& plane = shaft.planes[first_of(rest)];
         const double middle = glm::dot(plane.normal, center) + plane.offset;
         const double reach = glm::dot(glm::abs(plane.normal), half);
         if (middle < -reach) return true;
@@ -46,10 +52,20 @@ bool is_turned(const Shaft& shaft, const EdgeNode& node) {
     return cosine * away > sine * reach && along > sine * away + cosine * reach;
 }
 
-/// Does the segment meet the planes' insides?
-bool meets(const Shaft& shaft, const Vec3& a, const Vec3& b) {
+bool is_outside(const Shaft::Plane& plane, const Vec3f& place) {
+    return glm::dot(plane.normal, Vec3(place)) + plane.offset < 0;
+}
+
+/// Does the edge meet the insides of these planes?
+bool meets(const Shaft& shaft, const Edge& edge, PlaneMask mask) {
+    for (int axis = 0; axis < 3; ++axis)
+        if (std::min(edge.a[axis], edge.b[axis]) > shaft.high[axis] ||
+            std::max(edge.a[axis], edge.b[axis]) < shaft.low[axis])
+            return false;
+    const Vec3 a(edge.a), b(edge.b);
     double begin = 0, end = 1;
-    for (const Shaft::Plane& plane : shaft.planes) {
+    for (; mask != 0; mask &= mask - 1) {
+        const Shaft::Plane& plane = shaft.planes[first_of(mask)];
         const double from = glm::dot(plane.normal, a) + plane.offset, to = glm::dot(plane.normal, b) + plane.offset;
         if (from < 0 && to < 0) return false;
         if (from < 0) begin = std::max(begin, from / (from - to));
@@ -57,14 +73,6 @@ bool meets(const Shaft& shaft, const Vec3& a, const Vec3& b) {
         if (begin > end) return false;
     }
     return true;
-}
-
-bool meets(const Shaft& shaft, const Edge& edge) {
-    for (int axis = 0; axis < 3; ++axis)
-        if (std::min(edge.a[axis], edge.b[axis]) > shaft.high[axis] ||
-            std::max(edge.a[axis], edge.b[axis]) < shaft.low[axis])
-            return false;
-    return meets(shaft, Vec3(edge.a), Vec3(edge.b));
 }
 
 /// 1: the whole block is in front of the plane; -1: behind; 0: neither, or too close to tell.
@@ -89,8 +97,8 @@ bool is_never_silhouette(const Silhouettes& silhouettes, const Shaft& shaft, con
     return second == (edge.runs_alike() ? -first : first);
 }
 
-/// Calls `leaf(node, mask)` for every leaf that the shaft may meet and `is_passed(node)` is not true of, from left to
-/// right, until one returns true; then returns true.
+/// Calls `leaf(node, planes that may cut it)` for every leaf that the shaft may meet and `is_passed(node)` is not true
+/// of, from left to right, until one returns true; then returns true.
 template <class Passed, class Leaf>
 bool walk(const std::vector<EdgeNode>& nodes, const Shaft& shaft, const Passed& is_passed, const Leaf& leaf) {
     struct Entry {
@@ -105,7 +113,7 @@ bool walk(const std::vector<EdgeNode>& nodes, const Shaft& shaft, const Passed& 
         const EdgeNode& node = nodes[index];
         if (misses(shaft, node.low, node.high, mask) || is_passed(node)) continue;
         if (node.count > 0) {
-            if (leaf(node)) return true;
+            if (leaf(node, mask)) return true;
             continue;
         }
         stack[size++] = {node.first, mask};
@@ -118,10 +126,10 @@ bool walk(const std::vector<EdgeNode>& nodes, const Shaft& shaft, const Passed& 
 
 void find_candidates(const Silhouettes& silhouettes, const Shaft& shaft, size_t monitor, std::vector<uint32_t>& found) {
     found.clear();
-    const auto leaf = [&](const EdgeNode& node) {
+    const auto leaf = [&](const EdgeNode& node, PlaneMask mask) {
         for (uint32_t e = node.first; e < node.first + node.count; ++e) {
             const Edge& edge = silhouettes.edges[e];
-            if (edge.owner() == monitor || !meets(shaft, edge)) continue;
+            if (edge.owner() == monitor || !meets(shaft, edge, mask)) continue;
             if (!is_never_silhouette(silhouettes, shaft, edge)) found.push_back(e);
         }
         return false;
@@ -131,10 +139,10 @@ void find_candidates(const Silhouettes& silhouettes, const Shaft& shaft, size_t 
 }
 
 bool meets_rim(const Silhouettes& silhouettes, const Shaft& shaft, uint32_t plane) {
-    const auto leaf = [&](const EdgeNode& node) {
+    const auto leaf = [&](const EdgeNode& node, PlaneMask mask) {
         for (uint32_t e = node.first; e < node.first + node.count; ++e) {
             const Edge& edge = silhouettes.edges[e];
-            if ((edge.first() == plane || edge.second() == plane) && meets(shaft, edge)) return true;
+            if ((edge.first() == plane || edge.second() == plane) && meets(shaft, edge, mask)) return true;
         }
         return false;
     };
@@ -143,19 +151,18 @@ bool meets_rim(const Silhouettes& silhouettes, const Shaft& shaft, uint32_t plan
 }
 
 bool meets_cutout(const Silhouettes& silhouettes, const Shaft& shaft) {
-    const auto leaf = [&](const EdgeNode& node) {
+    const auto leaf = [&](const EdgeNode& node, PlaneMask mask) {
         for (uint32_t t = node.first; t < node.first + node.count; ++t) {
             const auto& [a, b, c] = silhouettes.cutouts[t];
             const Vec3f low = glm::min(a, glm::min(b, c)), high = glm::max(a, glm::max(b, c));
-            PlaneMask mask = all_planes(shaft);
-            if (misses(shaft, low, high, mask)) continue;
-            const auto is_beyond = [&](const Shaft::Plane& plane) {
-                const auto outside = [&](const Vec3f& corner) {
-                    return glm::dot(plane.normal, Vec3(corner)) + plane.offset < 0;
-                };
-                return outside(a) && outside(b) && outside(c);
-            };
-            if (std::none_of(shaft.planes.begin(), shaft.planes.end(), is_beyond)) return true;
+            PlaneMask cutting = mask;
+            if (misses(shaft, low, high, cutting)) continue;
+            bool is_beyond = false;  // one of the planes has all corners outside
+            for (; cutting != 0 && !is_beyond; cutting &= cutting - 1) {
+                const Shaft::Plane& plane = shaft.planes[first_of(cutting)];
+                is_beyond = is_outside(plane, a) && is_outside(plane, b) && is_outside(plane, c);
+            }
+            if (!is_beyond) return true;
         }
         return false;
     };

@@ -4,86 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/base/random.h"
-#include "runtime/light/sample.h"
-#include "runtime/ltc/polygon.h"
+#include "baker/gather/block_light.h"
+#include "baker/gather/blocks.h"
 
 namespace surimi {
-namespace {
-
-/// What all texels of one monitor share.
-struct Shared {
-    const Scene& scene;
-    const Atlas& atlas;
-    const Texels& texels;
-    const RayScene& rays;
-    const Monitor& monitor;
-    size_t monitor_index;
-    MonitorSampler sampler;
-    uint64_t seed;
-    std::vector<std::array<uint32_t, 4>> sobol;
-};
-
-/// Unshadowed irradiance as an average over the first four sample points of the texel: they are one in each quarter,
-/// and E changes slowly over a texel.
-double unshadowed_irradiance(const Shared& shared, const TexelSurface& surface, const Scrambling& seeds) {
-    const size_t count = std::min<size_t>(4, shared.sobol.size());
-    double sum = 0;
-    for (size_t i = 0; i < count; ++i) {
-        const auto r = scrambled(shared.sobol[i], seeds);
-        const SurfacePoint point = surface.sample(r[0], r[1]);
-        for (const Polygon& panel : shared.monitor.panels)
-            sum += irradiance_of_polygon<double>(panel.corners, point.position, point.normal, shared.monitor.two_sided);
-    }
-    return std::min(sum / static_cast<double>(count), pi);
-}
-
-/// Irradiance weight of a monitor point for a surface point, up to the monitor's area: cos cos / r^2.
-double transfer(const SurfacePoint& point, const LightPoint& light, bool two_sided) {
-    const Vec3 d = light.position - point.position;
-    const double r2 = glm::dot(d, d);
-    const double receiver = glm::dot(d, point.normal);
-    const double emitter = two_sided ? std::abs(glm::dot(d, light.normal)) : -glm::dot(d, light.normal);
-    if (!(receiver > 0) || !(emitter > 0)) return 0;
-    return receiver * emitter / (r2 * r2);
-}
-
-/// The ratio estimator (M6): V = sum w_i v_i / sum w_i over pairs of a texel point and a monitor point. A texel from
-/// which nothing is blocked gets exactly 1.
-IrradianceEstimate gather_texel(const Shared& shared, const Texel& texel, size_t& rays) {
-    const TexelSurface surface(shared.scene, shared.atlas, shared.texels, texel);
-    const auto page_size = static_cast<uint64_t>(shared.texels.width) * static_cast<uint64_t>(shared.texels.height);
-    const uint64_t key = static_cast<uint64_t>(shared.texels.page) * page_size + texel.index;
-    const Scrambling seeds = scrambling(hash(hash(shared.seed, static_cast<uint64_t>(shared.monitor.channel)), key));
-    const double unshadowed = unshadowed_irradiance(shared, surface, seeds);
-    if (!(unshadowed > 0)) return {};
-
-    double all = 0, seen = 0;                  // sums of w and of w v
-    double all_squared = 0, seen_squared = 0;  // sums of w^2 and of w^2 v
-    for (const auto& point : shared.sobol) {
-        const auto r = scrambled(point, seeds);
-        const SurfacePoint from = surface.sample(r[0], r[1]);
-        const LightPoint to = shared.sampler.sample(r[2], r[3]);
-        const double w = transfer(from, to, shared.monitor.two_sided);
-        if (!(w > 0)) continue;
-        all += w;
-        all_squared += w * w;
-        // Light that the shading normal would admit but the surface itself blocks: occluded without a ray.
-        if (glm::dot(to.position - from.position, from.geometric_normal) <= 0) continue;
-        ++rays;
-        if (shared.rays.is_occluded(shared.rays.ray_origin(from), to.position, shared.monitor_index)) continue;
-        seen += w;
-        seen_squared += w * w;
-    }
-    if (!(all > 0)) return {};  // a sliver of the monitor above the horizon that no sample met
-    const double visibility = seen / all;
-    // Variance of the ratio by linearisation (M7), as if samples were independent: stratification only lowers it.
-    const double variance = (seen_squared * (1 - 2 * visibility) + all_squared * visibility * visibility) / (all * all);
-    return {static_cast<float>(unshadowed), static_cast<float>(unshadowed * visibility),
-            static_cast<float>(std::sqrt(std::max(0.0, variance))), TexelMethod::monte_carlo};
-}
-
-}  // namespace
 
 size_t GatherStatistics::rays() const {
     size_t sum = 0;
@@ -91,26 +15,69 @@ size_t GatherStatistics::rays() const {
     return sum;
 }
 
-Gathered gather(const Scene& scene, const Atlas& atlas, const Texels& texels, const RayScene& rays, const Silhouettes&,
-                size_t monitor, const GatherSettings& settings, const Progress& progress) {
-    Shared shared{
-        scene,         atlas, texels, rays, scene.monitors[monitor], monitor, MonitorSampler(scene.monitors[monitor]),
-        settings.seed, {}};
-    for (int i = 0; i < (settings.samples > 0 ? settings.samples : 256); ++i)
-        shared.sobol.push_back(sobol::point(static_cast<uint32_t>(i)));
+void GatherStatistics::add(const GatherStatistics& other) {
+    for (size_t i = 0; i < methods.size(); ++i) {
+        methods[i].texels += other.methods[i].texels;
+        methods[i].points += other.methods[i].points;
+        methods[i].rays += other.methods[i].rays;
+        methods[i].seconds += other.methods[i].seconds;
+    }
+    blocks += other.blocks;
+    shadowed_blocks += other.shadowed_blocks;
+    open_blocks += other.open_blocks;
+    candidates += other.candidates;
+    segments += other.segments;
+    failed_checks += other.failed_checks;
+    refined_texels += other.refined_texels;
+    query_seconds += other.query_seconds;
+    for (size_t i = 0; i < error_histogram.size(); ++i) error_histogram[i] += other.error_histogram[i];
+    above_error += other.above_error;
+}
 
-    constexpr size_t grain = 256;  // texels; a few milliseconds of rays
+void GatherStatistics::count_error(double error, double asked) {
+    const int exponent = error > 0 ? std::ilogb(error) : -bins;  // error < 2^(exponent + 1)
+    const int bin = error > 0 ? std::clamp(exponent + bins, 1, bins - 1) : 0;
+    ++error_histogram[static_cast<size_t>(bin)];
+    if (error > asked) ++above_error;
+}
+
+Gathered gather(const Scene& scene, const Atlas& atlas, const Texels& texels, const RayScene& rays,
+                const Silhouettes& silhouettes, size_t monitor, const GatherSettings& settings,
+                const Progress& progress) {
+    const MonitorSetup setup = set_up(scene, rays, silhouettes, monitor, settings);
+    const Blocks blocks = find_blocks(texels);
+    constexpr size_t grain = 4;  // blocks; a few milliseconds
     Gathered result;
     result.estimates.resize(texels.texels.size());
-    std::vector<size_t> range_rays((texels.texels.size() + grain - 1) / grain, 0);
-    parallel_stage("light from " + scene.monitors[monitor].name, texels.texels.size(), grain, progress,
-                   [&](size_t begin, size_t end) {
-                       for (size_t i = begin; i < end; ++i)
-                           result.estimates[i] = gather_texel(shared, texels.texels[i], range_rays[begin / grain]);
-                   });
-    for (const size_t count : range_rays)
-        result.statistics.methods[static_cast<size_t>(TexelMethod::monte_carlo)].rays += count;
+    std::vector<GatherStatistics> statistics((blocks.count() + grain - 1) / grain);
+    parallel_stage("light from " + setup.light().name, blocks.count(), grain, progress, [&](size_t begin, size_t end) {
+        thread_local BlockWorkspace work;
+        std::vector<IrradianceEstimate> estimates;
+        for (size_t b = begin; b < end; ++b) {
+            const std::span<const uint32_t> members = blocks[b];
+            estimates.assign(members.size(), {});
+            light_block(setup, block_surfaces(scene, atlas, texels, rays, members), work, estimates,
+                        statistics[begin / grain]);
+            for (size_t i = 0; i < members.size(); ++i) result.estimates[members[i]] = estimates[i];
+        }
+    });
+    for (const GatherStatistics& part : statistics) result.statistics.add(part);
     return result;
+}
+
+IrradianceEstimate irradiance_at(const Scene& scene, const RayScene& rays, const Silhouettes& silhouettes,
+                                 size_t monitor, const SurfacePoint& point, const GatherSettings& settings,
+                                 size_t* segments) {
+    GatherSettings of_point = settings;
+    if (settings.method == Method::automatic && !settings.is_exact) of_point.method = Method::scanline;
+    const MonitorSetup setup = set_up(scene, rays, silhouettes, monitor, of_point);
+    BlockWorkspace work;
+    const Vec3 origin = rays.ray_origin(point) - rays.center();
+    look_from(work.sight, setup, std::span(&origin, 1), 0);
+    const PointLight light = light_at(setup, work.sight, point, settings.seed, work.point);
+    if (segments) *segments = light.segments;
+    return {static_cast<float>(light.unshadowed), static_cast<float>(light.shadowed),
+            static_cast<float>(light.has_failed ? 1 : light.error), light.method};
 }
 
 }  // namespace surimi

@@ -80,8 +80,10 @@ Silhouettes cut_edges(const Scene& scene, const RayScene& rays, const Panel& pan
 
 MonitorSetup set_up(const Scene& scene, const RayScene& rays, const Silhouettes& silhouettes, size_t monitor,
                     const GatherSettings& settings) {
-    MonitorSetup setup{scene, rays, silhouettes, monitor, settings, panels_of(scene.monitors[monitor], rays),
-                       {},    MonitorSampler(scene.monitors[monitor])};
+    MonitorSetup setup{scene,       rays,
+                       silhouettes, monitor,
+                       settings,    panels_of(scene.monitors[monitor], rays),
+                       {},          MonitorSampler(scene.monitors[monitor])};
     for (const Panel& panel : setup.panels) setup.cuts.push_back(cut_edges(scene, rays, panel, monitor));
     return setup;
 }

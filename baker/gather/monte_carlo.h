@@ -13,8 +13,7 @@
 
 namespace surimi {
 
-/// What all texels share of their samples: four-dimensional Sobol points, and which of them are neighbours. 1 MB; make
-/// one for a bake.
+/// What all texels share of their samples: four-dimensional Sobol points. 1 MB; make one for a bake.
 struct SamplePoints {
     static constexpr size_t capacity = size_t{1} << 16;
 
@@ -23,10 +22,6 @@ struct SamplePoints {
     /// [dimension][index]: digits of the Sobol points, reversed as scrambling wants them. Dimensions 0 and 1 choose
     /// the point of the monitor, 2 and 3 that of the texel.
     std::array<std::vector<uint32_t>, 4> digits;
-    /// [log2 of the number of samples][way to cut space into cells]: sample i shares its cell with sample i ^ partner
-    /// (M52).
-    static constexpr size_t cell_shapes = 4;
-    std::array<std::array<uint32_t, cell_shapes>, 17> partner{};
 };
 
 struct MonteCarloTask {

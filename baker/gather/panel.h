@@ -37,12 +37,12 @@ double end_of_rays(const Panel& panel, const Vec3& origin);
 /// A point that rays start from and the part of a panel that lights it.
 struct PanelView {
     const Panel* panel = nullptr;
-    Vec3 origin{0};                         ///< RayScene::ray_origin, relative to its centre
-    Vec3 normal{0, 0, 1};                   ///< shading normal
-    Vec3 row_s{0}, row_t{0}, row_w{0};      ///< x - origin -> homogeneous (s, t, w) on the panel, w = 1 in its plane
-    double end = 1;                         ///< w at which occluders cease to count (end_of_rays)
-    std::vector<Vec2> lit;                  ///< of the panel above the horizon of the shading normal
-    std::vector<Vec2> open;                 ///< of that, above the surface itself: what can arrive
+    Vec3 origin{0};                     ///< RayScene::ray_origin, relative to its centre
+    Vec3 normal{0, 0, 1};               ///< shading normal
+    Vec3 row_s{0}, row_t{0}, row_w{0};  ///< x - origin -> homogeneous (s, t, w) on the panel, w = 1 in its plane
+    double end = 1;                     ///< w at which occluders cease to count (end_of_rays)
+    std::vector<Vec2> lit;              ///< of the panel above the horizon of the shading normal
+    std::vector<Vec2> open;             ///< of that, above the surface itself: what can arrive
 };
 
 /// Fills `view`; its arrays are reused. `lit` is empty where the point is behind the panel or sees none of it.

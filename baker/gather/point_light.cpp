@@ -36,8 +36,12 @@ PointVisibility by_lines(const MonitorSetup& setup, uint64_t key, const Toleranc
     size_t rays = 0;
     for (int lines = limits.first_lines;; lines *= 2) {
         const bool is_first = lines == limits.first_lines;
-        const ScanlineTask task{setup.rays, setup.monitor,       lines, unit_double(hash(key, 7 + static_cast<uint64_t>(lines))),
-                                is_first ? 2 : 0, key};
+        const ScanlineTask task{setup.rays,
+                                setup.monitor,
+                                lines,
+                                unit_double(hash(key, 7 + static_cast<uint64_t>(lines))),
+                                is_first ? 2 : 0,
+                                key};
         best = scan(work.view, work.segments, task, work.scan);
         rays += best.rays;
         if (!best.is_consistent || best.error <= limits.lines || lines >= most_lines) break;
@@ -49,6 +53,33 @@ PointVisibility by_lines(const MonitorSetup& setup, uint64_t key, const Toleranc
     }
     best.rays = rays;
     return best;
+}
+
+double distance_to_segment(const Vec3& a, const Vec3& b) {
+    const Vec3 d = b - a;
+    const double length2 = glm::dot(d, d);
+    const double at = length2 > 0 ? std::clamp(-glm::dot(a, d) / length2, 0.0, 1.0) : 0;
+    return glm::length(a + at * d);
+}
+
+/// Can the edge's shadow pass over the panel within the texel? By bounding boxes of what moving by half a texel does;
+/// edges in the surface's own plane, or below it, only where they cross the texel.
+bool may_sweep(const PanelView& view, const Candidates& c, size_t i, const Vec3& geometric_normal, double half_texel) {
+    const Vec3 a = Vec3(c.ax[i], c.ay[i], c.az[i]) - view.origin, b = Vec3(c.bx[i], c.by[i], c.bz[i]) - view.origin;
+    const double level = 1e-3 * half_texel;
+    if (glm::dot(geometric_normal, a) <= level && glm::dot(geometric_normal, b) <= level)
+        return distance_to_segment(a, b) < 1.5 * half_texel;  // half the diagonal, and a little
+    const Panel& panel = *view.panel;
+    const Vec2 step = half_texel / Vec2(glm::length(panel.axis_s), glm::length(panel.axis_t));
+    Vec2 low(INFINITY), high(-INFINITY);
+    for (const Vec3& end : {a, b}) {
+        const double w = std::max(glm::dot(view.row_w, end), 1e-4);
+        const Vec2 place = Vec2(glm::dot(view.row_s, end), glm::dot(view.row_t, end)) / w;
+        const Vec2 motion = step * (std::max(0.0, 1 - w) / w);
+        low = glm::min(low, place - motion);
+        high = glm::max(high, place + motion);
+    }
+    return low.x < 1 && low.y < 1 && high.x > -1 && high.y > -1;
 }
 
 struct Chosen {
@@ -93,7 +124,14 @@ PointLight light_at(const MonitorSetup& setup, const BlockSight& sight, const Su
         light.method = std::max(light.method, TexelMethod::certificate);
         if (panel_sight.is_hidden) continue;
         look_at(work.view, panel, origin, point.normal, point.geometric_normal);
-        if (work.view.open.empty()) continue;
+        if (work.view.open.empty()) {
+            light.has_near = light.has_near || !work.view.lit.empty();  // a neighbouring triangle may see it
+            continue;
+        }
+        light.has_near = light.has_near || std::ranges::any_of(panel_sight.near, [&](size_t edge) {
+                             return may_sweep(work.view, panel_sight.candidates, edge, point.geometric_normal,
+                                              0.5 * work.texel_size);
+                         });
         const Chosen chosen = choose(setup, panel_sight, hash(key, i), work);
         light.method = std::max(light.method, chosen.method);
         light.is_dear = chosen.is_dear;

@@ -95,9 +95,7 @@ class Scan {
             Vec2 a = lattice_.to_frame(polygon[i]), b = lattice_.to_frame(polygon[(i + 1) % polygon.size()]);
             const bool is_left = b.y < a.y;  // counter-clockwise: the left chain runs down
             if (is_left) std::swap(a, b);
-            const auto line_of = [&](double y) {
-                return (y - lattice_.bottom) / lattice_.spacing - lattice_.shift;
-            };
+            const auto line_of = [&](double y) { return (y - lattice_.bottom) / lattice_.spacing - lattice_.shift; };
             const double first = std::max(0.0, std::ceil(line_of(a.y)));
             const double last = std::min(lattice_.count - 1.0, std::ceil(line_of(b.y)) - 1);
             const double slope = (b.x - a.x) / (b.y - a.y);
@@ -109,7 +107,8 @@ class Scan {
 
     void clip_lines() {
         work_.lines.assign(static_cast<size_t>(task_.lines) + 1, {});
-        clip_lines_by(view_.open, [](Work::Line& line, bool is_left, float x) { (is_left ? line.begin : line.end) = x; });
+        clip_lines_by(view_.open,
+                      [](Work::Line& line, bool is_left, float x) { (is_left ? line.begin : line.end) = x; });
         clip_lines_by(view_.lit,
                       [](Work::Line& line, bool is_left, float x) { (is_left ? line.lit_begin : line.lit_end) = x; });
     }
@@ -169,7 +168,8 @@ class Scan {
             for (; event < work_.events.size() && work_.events[event].height <= lattice_.height(j); ++event)
                 depth_of_left_end += work_.events[event].jump;
             if (!(line.begin < line.end)) continue;
-            const uint32_t begin = work_.offsets[static_cast<size_t>(j)], end = work_.offsets[static_cast<size_t>(j) + 1];
+            const uint32_t begin = work_.offsets[static_cast<size_t>(j)],
+                           end = work_.offsets[static_cast<size_t>(j) + 1];
             const std::span<Work::Crossing> crossings(work_.crossings.data() + begin, end - begin);
             sort_line(crossings);
             int depth = depth_of_left_end;
@@ -258,8 +258,8 @@ class Scan {
                                                 [](uint32_t at, const Work::Line& line) { return at < line.first; });
             const auto j = after - work_.lines.begin() - 1;
             const float begin = work_.intervals[i].begin;
-            const float end = i + 1 < after->first ? work_.intervals[i + 1].begin
-                                                   : work_.lines[static_cast<size_t>(j)].end;
+            const float end =
+                i + 1 < after->first ? work_.intervals[i + 1].begin : work_.lines[static_cast<size_t>(j)].end;
             if (end - begin < 1e-3f) continue;  // a ray's own rounding could leave it
             const bool is_claimed = is_anything_free_ && work_.intervals[i].depth == free_depth_;
             const Vec2 middle(0.5 * (begin + end), lattice_.height(static_cast<int>(j)));
@@ -313,7 +313,8 @@ class Scan {
         if (!(whole > 0)) return;
         const auto ratio = [](double a, double b) { return b > 0 ? a / b : 0; };
         result_.visibility = std::clamp((seen[0] + seen[1] + seen[2] + seen[3]) / whole, 0.0, 1.0);
-        const double halves = std::abs(ratio(seen[0] + seen[2], all[0] + all[2]) - ratio(seen[1] + seen[3], all[1] + all[3]));
+        const double halves =
+            std::abs(ratio(seen[0] + seen[2], all[0] + all[2]) - ratio(seen[1] + seen[3], all[1] + all[3]));
         const double even = std::abs(ratio(seen[0], all[0]) - ratio(seen[2], all[2]));
         const double odd = std::abs(ratio(seen[1], all[1]) - ratio(seen[3], all[3]));
         result_.error = std::max({halves / 2, even / 6, odd / 6});

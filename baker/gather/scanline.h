@@ -14,10 +14,10 @@ namespace surimi {
 struct ScanlineTask {
     const RayScene& rays;
     size_t monitor = 0;
-    int lines = 64;         ///< a multiple of 4
-    double shift = 0.5;     ///< of the lines, in [0, 1) of their distance
-    int checks = 2;         ///< rays through random intervals that have to agree
-    uint64_t key = 0;       ///< of the random numbers
+    int lines = 64;      ///< a multiple of 4
+    double shift = 0.5;  ///< of the lines, in [0, 1) of their distance
+    int checks = 2;      ///< rays through random intervals that have to agree
+    uint64_t key = 0;    ///< of the random numbers
 };
 
 /// Memory that is used again from point to point.
@@ -37,16 +37,16 @@ struct ScanlineWorkspace {
     struct Level {
         double length = 0;  ///< of all its intervals
         float longest = 0;
-        Vec2 middle{0};     ///< of the longest, (x, y) of the turned frame
+        Vec2 middle{0};  ///< of the longest, (x, y) of the turned frame
     };
     struct Line {
         float begin = 0, end = 0;          ///< of the open part of the panel; begin >= end: not met
         float lit_begin = 0, lit_end = 0;  ///< of the lit part
         uint32_t first = 0;                ///< its intervals are intervals[first, next line's first)
     };
-    struct Owner {            ///< of an integral's end
-        uint8_t set;          ///< its line's number modulo 4
-        bool is_arriving;     ///< of what arrives, not of all light
+    struct Owner {         ///< of an integral's end
+        uint8_t set;       ///< its line's number modulo 4
+        bool is_arriving;  ///< of what arrives, not of all light
     };
     LineSegments turned;
     std::vector<uint32_t> offsets;

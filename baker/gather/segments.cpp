@@ -196,8 +196,8 @@ void Candidates::finish() {
 void project(const Candidates& candidates, size_t first_cut, const PanelView& view, Segments& segments) {
     const size_t room = candidates.ax.size() + padding;
     if (segments.x0.size() < room)
-        for (auto* numbers : {&segments.x0, &segments.y0, &segments.x1, &segments.y1, &segments.jump, &segments.side0,
-                              &segments.side1})
+        for (auto* numbers :
+             {&segments.x0, &segments.y0, &segments.x1, &segments.y1, &segments.jump, &segments.side0, &segments.side1})
             numbers->resize(room);
     thread_local std::vector<ConeSide> cone;
     HWY_DYNAMIC_DISPATCH(project_all)(candidates, first_cut, view, cone_of(view, cone), segments);

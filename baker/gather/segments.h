@@ -14,10 +14,10 @@ namespace surimi {
 /// A block's candidates, structure of arrays, padded with edges that are never seen.
 struct Candidates {
     std::vector<double> ax, ay, az, bx, by, bz;
-    std::vector<double> nx, ny, nz, nd;      ///< plane of the first face
-    std::vector<double> mx, my, mz, md;      ///< plane of the second
-    std::vector<double> second;              ///< what the second face's side counts: -1, +1, or 0 without one
-    size_t count = 0;                        ///< without padding
+    std::vector<double> nx, ny, nz, nd;  ///< plane of the first face
+    std::vector<double> mx, my, mz, md;  ///< plane of the second
+    std::vector<double> second;          ///< what the second face's side counts: -1, +1, or 0 without one
+    size_t count = 0;                    ///< without padding
 
     void assign(const Silhouettes& silhouettes, std::span<const uint32_t> edges);
     /// Adds the edges at which the panel's clearance cuts triangles open.
@@ -38,8 +38,8 @@ struct Segments {
     size_t count = 0;
 };
 
-/// The silhouettes among `candidates` inside view.open. Candidates from `first_cut` on lie in the plane of the clearance
-/// and are not clipped by it.
+/// The silhouettes among `candidates` inside view.open. Candidates from `first_cut` on lie in the plane of the
+/// clearance and are not clipped by it.
 void project(const Candidates& candidates, size_t first_cut, const PanelView& view, Segments& segments);
 
 }  // namespace surimi

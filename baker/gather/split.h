@@ -27,8 +27,8 @@ struct SplitWorkspace {
         double weight;
         Vec2 middle;
     };
-    std::vector<Segment> segments;    ///< a stack: every call's list on top of its caller's
-    std::vector<Vec2> corners;        ///< a stack of polygons
+    std::vector<Segment> segments;  ///< a stack: every call's list on top of its caller's
+    std::vector<Vec2> corners;      ///< a stack of polygons
     std::vector<Fragment> fragments;
 };
 

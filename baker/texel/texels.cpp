@@ -222,16 +222,19 @@ SurfacePoint TexelSurface::point_of(const Piece& piece, const Vec2& uv) {
             piece.unit_normal(uv.x, uv.y), piece.geometric_normal};
 }
 
+double TexelSurface::share_of(const Piece& piece) const {
+    const double before = &piece == &pieces_.front() ? 0 : (&piece - 1)->cumulative;
+    return (piece.cumulative - before) / total_;
+}
+
 SurfacePoint TexelSurface::center() const {
     const auto middle_of = [](const Piece& piece) {
         return point_of(piece, piece.is_square ? Vec2(0.5) : Vec2(2.0 / 3, 1.0 / 3));
     };
     if (pieces_.size() == 1) return middle_of(pieces_.front());
     Vec3 position(0), normal(0);
-    double before = 0;
     for (const Piece& piece : pieces_) {
-        const double share = (piece.cumulative - before) / total_;
-        before = piece.cumulative;
+        const double share = share_of(piece);
         const SurfacePoint middle = middle_of(piece);
         position += share * middle.position;
         normal += share * middle.normal;

@@ -68,6 +68,12 @@ class TexelSurface {
     /// The point for (u, v) in [0, 1)^2, spread in the same way. Always on a triangle.
     SurfacePoint sample(double u, double v) const;
 
+    std::span<const Piece> pieces() const { return pieces_; }
+    /// Share of the texel's area; all shares sum to 1.
+    double share_of(const Piece& piece) const;
+    /// The point at (u, v) of the piece's own coordinates: (0, 0), (1, 0), (1, 1) are corners, for a square (0, 1) too.
+    static SurfacePoint point_of(const Piece& piece, const Vec2& uv);
+
     /// The point that stands for the texel best: its centre of area where all of it lies in one plane, else the middle
     /// of the piece whose middle is nearest to that. Always on a triangle or in its plane.
     SurfacePoint center() const;
@@ -85,7 +91,6 @@ class TexelSurface {
     double area() const { return area_; }
 
   private:
-    static SurfacePoint point_of(const Piece& piece, const Vec2& uv);
     void add(const TriangleRef& triangle, const Vec2& corner);
     void add_piece(const TriangleRef& triangle, double area, bool is_square, const Affine& barycentric);
 

@@ -47,6 +47,8 @@ class RayScene {
     RayScene(const RayScene&) = delete;
     RayScene& operator=(const RayScene&) = delete;
 
+    static constexpr size_t no_monitor = 31;
+
     /// Where rays from the front of `point` start: far enough off its triangle that none of them meets it again, and no
     /// farther (M5). The distance covers the rounding of vertices and origin to float, relative to the scene's centre.
     Vec3 ray_origin(const SurfacePoint& point) const;
@@ -59,7 +61,7 @@ class RayScene {
     /// light through; blended and transmissive materials block it.
     bool is_occluded(const Vec3& origin, const Vec3& target, size_t monitor) const;
 
-    /// Bit i: ray i of the packet meets something that is not monitor `monitor`. Alpha-masked holes let light through.
+    /// Bit i: ray i of the packet meets something that is not monitor `monitor` (or anything, with no_monitor). Alpha-masked holes let light through.
     uint32_t occluded(const RayPacket& packet, size_t monitor) const;
 
     /// The nearest triangle between `origin` and `end` times the way to `target` (relative to center()) that is not

@@ -234,6 +234,19 @@ expect 0 "new charts are made" "$surimi" unwrap "$work/uv.glb" --uv auto --size 
 expect 0 '"reason": "TEXCOORD_1' "$surimi" unwrap "$theater" --uv auto --size 128 -o "$work/auto.glb" --json
 expect 0 "less than the gutter of 8" "$surimi" unwrap "$work/uv.glb" --uv existing --size 256 --gutter 8 -o "$work/existing.glb"
 
+# What accuracy costs: three files and words, or numbers
+expect 0 "Recommended: surimi bake home-theater.glb --error" "$surimi" study "$theater" --size 128 --texels 8 --reference 256 -o "$work/study" --quiet
+for name in svg csv md; do
+    check test -s "$work/study/home-theater.study.$name"
+done
+check test "$(find "$work/study" -type f | wc -l)" == 3
+"$surimi" study "$theater" --size 128 --texels 8 --reference 256 --seed 3 --json --quiet -o "$work/study" >"$work/study.json"
+check node -e 'process.exit(JSON.parse(require("fs").readFileSync(process.argv[1])).techniques.length === 12 ? 0 : 1)' "$work/study.json"
+expect 2 "texels must be" "$surimi" study "$theater" --texels 0
+expect 2 "reference must be" "$surimi" study "$theater" --reference 16
+expect 2 "did you mean --texels" "$surimi" study "$theater" --texel 8
+expect 6 "cannot be written" "$surimi" study "$theater" --size 128 -o "$work/study.json"
+
 # Comparing
 expect 0 "FLIP           0 " "$surimi" compare "$work/out/home-theater.visibility.exr" "$work/again/home-theater.visibility.exr"
 expect 5 "rmse is" "$surimi" compare "$work/lit.png" "$work/unshadowed.png" --fail-above 1e-6 --metric rmse

@@ -3,6 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
+#include <cstdlib>
+#include <filesystem>
+#include <vector>
+
+#include "runtime/base/random.h"
+#include "runtime/scene/gltf.h"
 #include "runtime/scene/texture.h"
 #include "tests/support/scenes.h"
 
@@ -104,6 +111,97 @@ TEST(RayScene, LightPassesTheHolesOfAnAlphaMaskedMaterial) {
 TEST(RayScene, BlendedMaterialsOcclude) {
     const Scene scene = masked_scene(AlphaMode::blend);
     EXPECT_TRUE(RayScene(scene).is_occluded({-0.5, 0.1, 0}, {-0.5, 2, 0}, 0));
+}
+
+TEST(RayScene, PacketsPassTheHolesOfAnAlphaMaskedMaterial) {
+    const Scene scene = masked_scene(AlphaMode::mask);
+    const RayScene rays(scene);
+    RayPacket packet;
+    uint32_t expected = 0;
+    for (size_t i = 0; i < RayPacket::capacity; ++i) {
+        const double x = i % 3 == 0 ? -0.6 + 0.01 * static_cast<double>(i) : 0.2 + 0.04 * static_cast<double>(i);
+        packet.add(Vec3(x, 0.1, 0) - rays.center(), Vec3(x, 2, 0.1) - rays.center(), 1);
+        if (i % 3 != 0) expected |= 1u << i;
+    }
+    EXPECT_EQ(rays.occluded(packet, 0), expected);
+}
+
+TEST(RayScene, PacketsEndWhereTold) {
+    Scene scene;
+    test::add_quad(scene, "Sheet", {-1, 1, 1}, {1, 1, 1}, {1, 1, -1}, {-1, 1, -1});
+    test::add_monitor(scene, "Screen", 0, {0, 0.5, 0}, {0.5, 0, 0}, {0, 0, 0.5});
+    const RayScene rays(scene);
+    RayPacket packet;
+    for (const double end : {0.0, 0.26, 0.49, 0.51, 1.0})
+        packet.add(Vec3(0.1, 0, 0.2) - rays.center(), Vec3(0.1, 2, 0.2) - rays.center(), end);
+    EXPECT_EQ(rays.occluded(packet, 0), 0b11000u);  // the sheet is half way; the monitor's own panel a quarter
+    EXPECT_EQ(rays.occluded(packet, 1), 0b11110u);  // for another monitor that panel counts
+}
+
+TEST(RayScene, TheClosestOccluderIsNotTheMonitor) {
+    Scene scene;
+    const uint32_t sheet = test::add_quad(scene, "Sheet", {-1, 1, 1}, {1, 1, 1}, {1, 1, -1}, {-1, 1, -1});
+    test::add_quad(scene, "Farther", {-1, 1.5, 1}, {1, 1.5, 1}, {1, 1.5, -1}, {-1, 1.5, -1});
+    test::add_monitor(scene, "Screen", 0, {0, 0.5, 0}, {0.5, 0, 0}, {0, 0, 0.5});
+    const RayScene rays(scene);
+    const Vec3 origin = Vec3(0.1, 0, 0.2) - rays.center(), target = Vec3(0.1, 2, 0.2) - rays.center();
+    const auto found = rays.closest_occluder(origin, target, 1, 0);
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->surface, sheet);
+    EXPECT_FALSE(rays.closest_occluder(origin, target, 0.49, 0));
+}
+
+/// Random rays between random points of a scene's surfaces, relative to the scene's centre: some graze, some are
+/// blocked at once.
+struct Segment {
+    Vec3 origin, target;
+};
+std::vector<Segment> random_segments(const Scene& scene, const RayScene& rays, uint64_t count) {
+    const auto place = [&](uint64_t key) {
+        uint64_t tries = 0;
+        uint32_t s = 0;
+        do s = static_cast<uint32_t>(hash(key, ++tries) % scene.surfaces.size());
+        while (scene.surfaces[s].triangles.empty());
+        const auto t = static_cast<uint32_t>(hash(key, 0) % scene.surfaces[s].triangles.size());
+        return rays.ray_origin(surface_point(scene, {s, t}, Vec3(0.5, 0.3, 0.2))) - rays.center();
+    };
+    std::vector<Segment> segments;
+    for (uint64_t i = 0; i < count; ++i) segments.push_back({place(2 * i), place(2 * i + 1)});
+    return segments;
+}
+
+/// Packets of every size against rays one by one.
+void expect_packets_agree(const Scene& scene) {
+    const RayScene rays(scene);
+    const std::vector<Segment> segments = random_segments(scene, rays, 20000);
+    size_t blocked = 0;
+    for (size_t first = 0, size = 1; first + size <= segments.size(); first += size, size = size % 16 + 1) {
+        RayPacket packet;
+        uint32_t expected = 0;
+        for (size_t i = 0; i < size; ++i) {
+            const Segment& segment = segments[first + i];
+            packet.add(segment.origin, segment.target, 0.999);
+            if (rays.closest_occluder(segment.origin, segment.target, 0.999, 0)) expected |= 1u << i;
+        }
+        EXPECT_EQ(rays.occluded(packet, 0), expected) << "rays from " << first;
+        blocked += static_cast<size_t>(std::popcount(expected));
+    }
+    EXPECT_GT(blocked, segments.size() / 20);
+    EXPECT_LT(blocked, segments.size());
+}
+
+TEST(RayScene, PacketsAgreeWithSingleRays) {
+    Scene scene = test::kanikama_room();
+    expect_packets_agree(scene);
+}
+
+TEST(RayScene, PacketsAgreeWithSingleRaysInRealRooms) {
+    const char* folder = std::getenv("SURIMI_SCENES");
+    if (!folder || !*folder) GTEST_SKIP() << "SURIMI_SCENES does not name a folder of scenes";
+    for (const char* file : {"home-theater/home-theater.glb", "classroom/classroom.glb", "nasty-house/house.glb"}) {
+        SCOPED_TRACE(file);
+        expect_packets_agree(read_gltf(std::filesystem::path(folder) / file));
+    }
 }
 
 TEST(Texture, WrapsAsAsked) {

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "baker/gather/block_light.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "baker/gather/texel_light.h"
+#include "runtime/base/random.h"
+#include "runtime/ltc/polygon.h"
+
+namespace surimi {
+namespace {
+
+/// Seconds since the last question.
+class Clock {
+  public:
+    double lap() {
+        const auto now = std::chrono::steady_clock::now();
+        const double seconds = std::chrono::duration<double>(now - last_).count();
+        last_ = now;
+        return seconds;
+    }
+
+  private:
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+double unshadowed_at(const MonitorSetup& setup, const SurfacePoint& point) {
+    double sum = 0;
+    for (const Panel& panel : setup.panels)
+        sum += irradiance_of_polygon<double>(panel.places, point.position - setup.rays.center(), point.normal);
+    return sum;
+}
+
+/// Its centre is not lit, but a corner is.
+bool is_partly_lit(const MonitorSetup& setup, const TexelSurface& surface) {
+    bool is_lit = false;
+    surface.for_each_corner([&](const SurfacePoint& corner) { is_lit = is_lit || unshadowed_at(setup, corner) > 0; });
+    return is_lit;
+}
+
+class BlockLighter {
+  public:
+    BlockLighter(const MonitorSetup& setup, const BlockSurfaces& block, BlockWorkspace& work,
+                 std::span<IrradianceEstimate> estimates, GatherStatistics& statistics)
+        : setup_(setup), block_(block), work_(work), estimates_(estimates), statistics_(statistics) {}
+
+    void run() {
+        rays_of_query_ = look_from(work_.sight, setup_, block_.corners, block_.texel_size);
+        statistics_.query_seconds += clock_.lap();
+        if (work_.sight.count == 0) return write_unlit();
+        ++statistics_.blocks;
+        if (work_.sight.is_hidden())
+            ++statistics_.shadowed_blocks;
+        else if (work_.sight.candidates() == 0)
+            ++statistics_.open_blocks;
+        statistics_.candidates += work_.sight.candidates();
+        if (only_rays()) return light_by_rays();
+        light_centers();
+        refine_texels();
+    }
+
+  private:
+    /// Cutouts are nothing to silhouettes, and where there are very many of those, looking at them costs more than
+    /// rays.
+    bool only_rays() const {
+        if (work_.sight.is_hidden()) return false;
+        if (work_.sight.has_cutouts || setup_.settings.method == Method::monte_carlo) return true;
+        return setup_.settings.method == Method::automatic && !setup_.settings.is_exact &&
+               cost_of_projecting(work_.sight.candidates()) >
+                   cost_of_monte_carlo(tolerances(setup_.settings).monte_carlo);
+    }
+
+    uint64_t key(size_t i) const {
+        return hash(hash(setup_.settings.seed, static_cast<uint64_t>(setup_.light().channel)), block_.keys[i]);
+    }
+
+    void write(size_t i, const TexelLight& texel) {
+        const PointLight& light = texel.light;
+        const bool is_lit = light.unshadowed > 0;
+        const TexelMethod method = is_lit ? light.method : TexelMethod::none;
+        estimates_[i] = {static_cast<float>(light.unshadowed), static_cast<float>(light.shadowed),
+                         static_cast<float>(is_lit ? light.error : 0), method};
+        GatherStatistics::OfMethod& of = statistics_.methods[static_cast<size_t>(method)];
+        ++of.texels;
+        of.points += texel.points;
+        of.rays += light.rays + (i == 0 ? rays_of_query_ : 0);
+        of.seconds += clock_.lap();
+        statistics_.segments += light.segments;
+        if (texel.points > 1) ++statistics_.refined_texels;
+        if (light.has_failed) ++statistics_.failed_checks;
+        if (is_lit) statistics_.count_error(static_cast<double>(estimates_[i].error), setup_.settings.error);
+    }
+
+    void write_unlit() {
+        for (size_t i = 0; i < estimates_.size(); ++i) write(i, {});
+    }
+
+    void light_by_rays() {
+        for (size_t i = 0; i < estimates_.size(); ++i) {
+            double unshadowed = unshadowed_at(setup_, block_.centers[i]);
+            if (!(unshadowed > 0) && is_partly_lit(setup_, block_.texels[i])) unshadowed = cell_average(i);
+            write(i, unshadowed > 0 ? by_rays(setup_, block_.texels[i], unshadowed, key(i)) : TexelLight{});
+        }
+    }
+
+    double cell_average(size_t i) const {
+        double sum = 0;
+        for (const double u : {0.25, 0.75})
+            for (const double v : {0.25, 0.75}) sum += unshadowed_at(setup_, block_.texels[i].sample(u, v)) / 4;
+        return sum;
+    }
+
+    void light_centers() {
+        work_.centers.clear();
+        work_.visibilities.clear();
+        work_.point.texel_size = block_.texel_size;
+        for (size_t i = 0; i < estimates_.size(); ++i) {
+            work_.centers.push_back(light_at(setup_, work_.sight, block_.centers[i], key(i), work_.point));
+            const PointLight& light = work_.centers.back();
+            // What is not known makes the differences with it unknown.
+            const bool is_known = light.unshadowed > 0 && !light.has_failed && !light.is_dear;
+            work_.visibilities.push_back(is_known ? light.visibility() : INFINITY);
+        }
+    }
+
+    void refine_texels() {
+        const double half = clock_.lap() / static_cast<double>(estimates_.size());
+        for (size_t y = 0; y < tile_size; ++y)
+            for (size_t x = 0; x < tile_size; ++x) {
+                const int member = block_.grid[y * tile_size + x];
+                if (member < 0) continue;
+                const auto i = static_cast<size_t>(member);
+                const Vec2 differences =
+                    second_differences(block_.grid, work_.visibilities, static_cast<int>(x), static_cast<int>(y));
+                const TexelLight texel = finish(i, differences);
+                write(i, texel);
+                statistics_.methods[static_cast<size_t>(estimates_[i].method)].seconds += half;
+            }
+    }
+
+    TexelLight finish(size_t i, const Vec2& differences) {
+        const PointLight& center = work_.centers[i];
+        if (center.unshadowed > 0 && work_.sight.is_hidden()) return {center, 1};
+        const TexelSurface& surface = block_.texels[i];
+        const double error = footprint_error(differences);
+        const auto refine = [&] {
+            const int side = block_.is_curved[i] || center.has_near ? 4 : 2;
+            return refined(setup_, work_.sight, surface, {center, error, side}, key(i), work_.point);
+        };
+        if (!(center.unshadowed > 0)) return is_partly_lit(setup_, surface) ? refine() : TexelLight{center, 1};
+        const bool may_trace = !setup_.settings.is_exact && setup_.settings.method != Method::split;
+        if (may_trace && block_.is_pierced[i]) return by_rays(setup_, surface, center.unshadowed, key(i));
+        if (center.has_failed || center.is_dear || block_.is_curved[i] || block_.is_pierced[i] || center.has_near)
+            return refine();
+        if (error > tolerances(setup_.settings).footprint / 2) return refine();
+        TexelLight texel{center, 1};
+        texel.light.error = std::hypot(center.error, error);
+        return texel;
+    }
+
+    const MonitorSetup& setup_;
+    const BlockSurfaces& block_;
+    BlockWorkspace& work_;
+    std::span<IrradianceEstimate> estimates_;
+    GatherStatistics& statistics_;
+    size_t rays_of_query_ = 0;
+    Clock clock_;
+};
+
+}  // namespace
+
+void light_block(const MonitorSetup& setup, const BlockSurfaces& block, BlockWorkspace& work,
+                 std::span<IrradianceEstimate> estimates, GatherStatistics& statistics) {
+    BlockLighter(setup, block, work, estimates, statistics).run();
+}
+
+}  // namespace surimi

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// The light that the texels of one block get from one monitor.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "baker/gather/block_sight.h"
+#include "baker/gather/footprint.h"
+#include "baker/gather/gather.h"
+#include "baker/gather/point_light.h"
+
+namespace surimi {
+
+/// The texels of one block as surfaces.
+struct BlockSurfaces {
+    std::vector<TexelSurface> texels;
+    std::vector<SurfacePoint> centers;
+    std::vector<uint64_t> keys;    ///< of the texels' random numbers, without the monitor
+    std::vector<char> is_curved;   ///< one point says little about such a texel
+    std::vector<char> is_pierced;  ///< something stands on it: part of it may be dark
+    TileGrid grid{};
+    std::array<Vec3, 8> corners;  ///< of a box around all places that rays start from, relative to RayScene::center()
+    double texel_size = 0;        ///< metres, root of the largest texel's area
+};
+
+/// `members`: indices into texels.texels.
+BlockSurfaces block_surfaces(const Scene& scene, const Atlas& atlas, const Texels& texels, const RayScene& rays,
+                             std::span<const uint32_t> members);
+
+/// Memory that is used again from block to block.
+struct BlockWorkspace {
+    BlockSight sight;
+    PointWorkspace point;
+    std::vector<PointLight> centers;
+    std::vector<double> visibilities;
+};
+
+/// Writes one estimate for each texel of the block and adds to `statistics`.
+void light_block(const MonitorSetup& setup, const BlockSurfaces& block, BlockWorkspace& work,
+                 std::span<IrradianceEstimate> estimates, GatherStatistics& statistics);
+
+}  // namespace surimi

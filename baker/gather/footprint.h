@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// How far the value at a texel's centre may be from the average over the texel.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "baker/gather/blocks.h"
+
+namespace surimi {
+
+/// Where the texels of a block lie in its tile: [y * tile_size + x] -> number within the block, or -1.
+using TileGrid = std::array<int16_t, size_t{tile_size} * tile_size>;
+
+/// Second differences of a block's values along both axes at texel (x, y), from the three texels in a row that lie
+/// best: the texel in the middle, else at an end. Infinite where there is no such row, so that nothing is known.
+Vec2 second_differences(const TileGrid& grid, std::span<const double> values, int x, int y);
+
+/// What the average over a texel differs from the value at its centre, if the value is as smooth as its second
+/// differences say: a parabola's average is off by a 24th of them (M56).
+double footprint_error(const Vec2& second_differences);
+
+}  // namespace surimi

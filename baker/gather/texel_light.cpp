@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "baker/gather/texel_light.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/base/random.h"
+
+namespace surimi {
+namespace {
+
+/// Sobol points of all texels: made once.
+const SamplePoints& sample_points() {
+    static const SamplePoints points;
+    return points;
+}
+
+class Average {
+  public:
+    void add(const PointLight& light, double weight) {
+        ++result_.points;
+        weight_ += weight;
+        PointLight& sum = result_.light;
+        sum.unshadowed += weight * light.unshadowed;
+        sum.shadowed += weight * light.shadowed;
+        const double error = weight * light.unshadowed * light.error;
+        squares_ += error * error;
+        if (light.unshadowed > 0) {
+            result_.lowest = std::min(result_.lowest, light.visibility());
+            result_.highest = std::max(result_.highest, light.visibility());
+        }
+        sum.method = std::max(sum.method, light.method);
+        sum.rays += light.rays;
+        sum.segments += light.segments;
+        sum.has_failed = sum.has_failed || light.has_failed;
+        sum.is_dear = sum.is_dear || light.is_dear;
+    }
+    bool is_usable() const { return !result_.light.has_failed && !result_.light.is_dear; }
+    TexelLight value() const {
+        TexelLight average = result_;
+        average.light.error = average.light.unshadowed > 0 ? std::sqrt(squares_) / average.light.unshadowed : 0;
+        average.light.unshadowed /= weight_ > 0 ? weight_ : 1;
+        average.light.shadowed /= weight_ > 0 ? weight_ : 1;
+        return average;
+    }
+
+  private:
+    TexelLight result_;
+    double squares_ = 0, weight_ = 0;
+};
+
+/// Texels of more pieces than this are sampled as a whole: no piece of them matters much.
+constexpr size_t most_pieces = 12;
+
+/// Calls visit(middle) for side x side cells of the unit square.
+template <class Visit>
+void for_each_cell(int side, const Visit& visit) {
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) visit(Vec2(x + 0.5, y + 0.5) / static_cast<double>(side));
+}
+
+/// Adds what a step of the refinement cost to the next one's account.
+TexelLight with_cost_of(TexelLight value, const TexelLight& before) {
+    value.points += before.points;
+    value.light.rays += before.light.rays;
+    value.light.segments += before.light.segments;
+    return value;
+}
+
+/// The exact way to average where shadows are sharper than a sixteenth of the texel: scrambled points, four times as
+/// many at every step, until two steps agree.
+TexelLight by_many_points(const MonitorSetup& setup, const BlockSight& sight, const TexelSurface& surface, uint64_t key,
+                          PointWorkspace& work) {
+    constexpr uint32_t most_points = 1024;
+    const Scrambling seeds = scrambling(hash(key, 99));
+    const Tolerances limits = tolerances(setup.settings);
+    Average average;
+    double before = -1;
+    for (uint32_t i = 0; i < most_points; ++i) {
+        const auto r = scrambled(sobol::point(i), seeds);
+        average.add(light_at(setup, sight, surface.sample(r[0], r[1]), hash(key, 100 + i), work), 1);
+        if (i + 1 != 64 && i + 1 != 256 && i + 1 != most_points) continue;
+        TexelLight value = average.value();
+        const double change = before < 0 ? 1 : std::abs(value.light.visibility() - before);
+        value.light.error = std::hypot(value.light.error, change / 2);
+        if (change / 2 <= limits.footprint || i + 1 == most_points) return value;
+        before = value.light.visibility();
+    }
+    return average.value();
+}
+
+}  // namespace
+
+TexelLight average_over_cells(const MonitorSetup& setup, const BlockSight& sight, const TexelSurface& surface, int side,
+                              uint64_t key, PointWorkspace& work) {
+    Average average;
+    uint64_t number = hash(key, static_cast<uint64_t>(side));
+    const auto add = [&](const SurfacePoint& point, double weight) {
+        if (average.is_usable()) average.add(light_at(setup, sight, point, ++number, work), weight);
+    };
+    if (surface.pieces().size() > most_pieces) {
+        for_each_cell(side, [&](const Vec2& cell) { add(surface.sample(cell.x, cell.y), 1); });
+        return average.value();
+    }
+    for (const TexelSurface::Piece& piece : surface.pieces()) {
+        const double share = surface.share_of(piece);
+        const int cells = std::max(1, static_cast<int>(std::lround(side * std::sqrt(share))));
+        for_each_cell(cells, [&](Vec2 cell) {
+            if (!piece.is_square) {  // evenly by area (M8); one cell has its middle at the centroid
+                cell.x = cells == 1 ? 2.0 / 3 : std::sqrt(cell.x);
+                cell.y *= cell.x;
+            }
+            add(TexelSurface::point_of(piece, cell), share / (cells * cells));
+        });
+    }
+    return average.value();
+}
+
+TexelLight by_rays(const MonitorSetup& setup, const TexelSurface& surface, double unshadowed, uint64_t key) {
+    MonteCarloTask task{setup.rays, setup.sampler, sample_points()};
+    task.monitor = setup.monitor;
+    task.clearance = setup.largest_clearance();
+    task.error = tolerances(setup.settings).monte_carlo;
+    task.samples = setup.settings.samples;
+    task.key = hash(key, 1);
+    const MonteCarloEstimate estimate = monte_carlo(task, surface);
+    TexelLight value;
+    value.points = 1;
+    value.light.method = TexelMethod::monte_carlo;
+    value.light.rays = estimate.rays;
+    value.light.unshadowed = unshadowed;
+    value.light.shadowed = unshadowed * estimate.visibility;
+    value.light.error = estimate.error;
+    return value;
+}
+
+TexelLight refined(const MonitorSetup& setup, const BlockSight& sight, const TexelSurface& surface,
+                   const Beginning& from, uint64_t key, PointWorkspace& work) {
+    const Tolerances limits = tolerances(setup.settings);
+    const bool may_trace = !setup.settings.is_exact && setup.settings.method != Method::split;
+    const double cost_of_point =
+        cost_of_projecting(sight.candidates()) + cost_of_scan(work.segments.count, limits.first_lines);
+    TexelLight best{from.center, 1};
+    double change_before = 1;
+    for (int side = from.side; side <= 16; side *= 2) {
+        TexelLight next = average_over_cells(setup, sight, surface, side, key, work);
+        const bool is_usable = !next.light.has_failed && !next.light.is_dear;
+        const double change = std::abs(next.light.visibility() - best.light.visibility());
+        next = with_cost_of(next, best);
+        best = next;
+        // Halving the cells leaves a quarter of the error where light is smooth: a third of what the step changed.
+        best.light.error = std::hypot(next.light.error, change / 3);
+        if (!is_usable) break;
+        // Two steps can agree by chance where a shadow's edge misses their points.
+        const double expected = std::isfinite(from.footprint) ? from.footprint / (side * side)
+                                                              : (next.highest - next.lowest) / (4 * side * side);
+        if (std::max(change / 3, expected) <= limits.footprint) return best;
+        if (side > 2 && change > 0.6 * change_before) break;  // not smooth at all
+        change_before = change;
+        double points = side * side, left = std::max(change / 3, expected);
+        for (; left > limits.footprint; left /= 4) points *= 4;
+        if (may_trace && points * cost_of_point > cost_of_average_by_rays(limits.monte_carlo)) break;
+    }
+    if (may_trace) return with_cost_of(by_rays(setup, surface, best.light.unshadowed, key), best);
+    return with_cost_of(by_many_points(setup, sight, surface, key, work), best);
+}
+
+}  // namespace surimi

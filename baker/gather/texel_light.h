@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// The light that a texel gets, as an average over its surface.
+#pragma once
+
+#include "baker/gather/gather.h"
+#include "baker/gather/monte_carlo.h"
+#include "baker/gather/point_light.h"
+
+namespace surimi {
+
+/// A texel average and what it took.
+struct TexelLight {
+    PointLight light;
+    size_t points = 0;
+    double lowest = 1, highest = 0;  ///< visibility of any point
+};
+
+/// Middles of side x side cells of a texel; of one of several pieces each piece has cells of about that size, and at
+/// least one. Errors of the points are added as independent ones. Stops at the first point that failed or is too dear.
+TexelLight average_over_cells(const MonitorSetup& setup, const BlockSight& sight, const TexelSurface& surface, int side,
+                              uint64_t key, PointWorkspace& work);
+
+/// What is known of a texel before it is refined.
+struct Beginning {
+    PointLight center;
+    double footprint = 0;  ///< what the average may differ from it (footprint.h); infinite where nothing is known
+    int side = 2;          ///< cells a side to begin with: 4 for a texel about which four points say little
+};
+
+/// Refines from the value at the centre: four points, sixteen and so on, until two steps agree or rays would be
+/// cheaper, because shadows are sharper than that or silhouettes too many. With settings.is_exact or Method::split by
+/// more and more points.
+TexelLight refined(const MonitorSetup& setup, const BlockSight& sight, const TexelSurface& surface,
+                   const Beginning& from, uint64_t key, PointWorkspace& work);
+
+/// By rays; `unshadowed` > 0.
+TexelLight by_rays(const MonitorSetup& setup, const TexelSurface& surface, double unshadowed, uint64_t key);
+
+}  // namespace surimi
