@@ -54,6 +54,7 @@ struct Job {
     Scene scene;
     Atlas atlas;
     Texels texels;
+    double share = 1;  ///< of the map's texels
     std::optional<RayScene> rays;
     Silhouettes silhouettes;
     SamplePoints points;
@@ -105,7 +106,9 @@ void set_up(Job& job, const Options& options, const std::string& scene) {
     settings.quality = UvQuality::draft;
     job.atlas = unwrap(receivers, settings, {});
     job.texels = find_texels(receivers, job.atlas);
+    const double all = static_cast<double>(job.texels.texels.size());
     if (options.texels > 0) keep_some(job.texels, options.texels);
+    job.share = static_cast<double>(job.texels.texels.size()) / all;
     job.rays.emplace(job.scene);
     const double start = cpu_seconds();
     job.silhouettes = find_silhouettes(job.scene, *job.rays);
@@ -167,8 +170,8 @@ class Bench {
     }
     /// The ratio estimator over pairs of independent random points: what is done without any care.
     double trace_uniformly(size_t texel, uint32_t samples) const;
-    Gathered gather_with(const GatherSettings& settings) const {
-        return gather(job_.scene, job_.atlas, job_.texels, *job_.rays, job_.silhouettes, monitor_, settings, {});
+    Gathered gather_with(const Texels& texels, const GatherSettings& settings) const {
+        return gather(job_.scene, job_.atlas, texels, *job_.rays, job_.silhouettes, monitor_, settings, {});
     }
 
   private:
@@ -220,6 +223,7 @@ struct CurvePoint {
 /// Samples and microseconds at which the curve reaches an RMSE: straight between its points in logarithms, and beyond
 /// them.
 CurvePoint at_rmse(const std::vector<CurvePoint>& curve, double rmse) {
+    if (curve[0].rmse <= rmse) return curve[0];  // hardly a penumbra
     size_t i = 1;
     while (i + 1 < curve.size() && curve[i].rmse > rmse) ++i;
     const CurvePoint &a = curve[i - 1], &b = curve[i];
@@ -276,9 +280,14 @@ void run_monitor(const Job& job, size_t monitor, const Options& options, const s
         GatherSettings settings;
         settings.error = setting.error;
         settings.is_exact = setting.is_exact;
+        // What a map costs before its first texel is shared by all of its texels, not by the few that are measured.
+        Texels none = job.texels;
+        none.texels.clear();
+        const double begin = cpu_seconds();
+        bench.gather_with(none, settings);
         const double start = cpu_seconds();
-        results.push_back(bench.gather_with(settings));
-        seconds.push_back(cpu_seconds() - start);
+        results.push_back(bench.gather_with(job.texels, settings));
+        seconds.push_back(cpu_seconds() - start - (start - begin) * (1 - job.share));
     }
     for (size_t i = 0; i < job.texels.texels.size(); ++i)
         if (results[0].estimates[i].unshadowed > 1e-6f) lit.push_back(i);
@@ -295,7 +304,8 @@ void run_monitor(const Job& job, size_t monitor, const Options& options, const s
         const double microseconds = 1e6 * seconds[s] / texels;
         const double rmse = std::max({found.rmse, found.least_rmse, 1e-6});
         const CurvePoint equal = at_rmse(curve, rmse);
-        const double uniform = std::pow(deviation / rmse, 2) * curve.back().microseconds / curve.back().samples;
+        const double uniform =
+            std::max(16.0, std::pow(deviation / rmse, 2)) * curve.back().microseconds / curve.back().samples;
         std::printf("| %s %s | %s | %.2f | %.2f | %.1f | %.1e | %.2f %% | %s%.0f | %.1f | %.1f | %.0f |\n",
                     scene.c_str(), job.scene.monitors[monitor].name.c_str(), all_settings[s].name, seconds[s],
                     microseconds, static_cast<double>(results[s].statistics.rays()) / texels, found.rmse,
