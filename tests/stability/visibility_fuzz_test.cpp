@@ -13,11 +13,7 @@ using test::Deviations;
 using test::Mesh;
 using test::VisibilityJudge;
 
-#if defined(__SANITIZE_ADDRESS__)
-constexpr int scenes = 40;
-#else
-constexpr int scenes = 400;
-#endif
+constexpr int scenes = test::cases(400);
 
 enum class Kind { boxes, sheets, soup, everything };
 
@@ -80,11 +76,11 @@ void expect_exact(Kind kind, uint64_t seed) {
             const test::SubtractedIrradiance truth = judge.truth(point);
             if (truth.unshadowed < 1e-6) continue;
             const double value = judge.split(point);
-            found.add(value, truth.visibility());
+            found.add(value, truth.visibility(), point);
             EXPECT_NEAR(value, truth.visibility(), 1e-6 + test::float_ratio) << "scene " << s << " point " << i;
         }
     }
-    EXPECT_GT(found.penumbra, static_cast<size_t>(scenes));
+    EXPECT_GT(found.penumbra, scenes);
     EXPECT_LT(found.rmse(), 1e-7);
 }
 
@@ -112,10 +108,10 @@ TEST(VisibilityFuzz, ScanlinesKeepTheirError_M55) {
         for (int i = 0; i < 16; ++i) {
             const SurfacePoint point = test::random_point(judge.scene(), choice, i % 2);
             const test::SubtractedIrradiance truth = judge.truth(point);
-            if (truth.unshadowed > 1e-6) found.add(judge.scanline(point, 0.004), truth.visibility());
+            if (truth.unshadowed > 1e-6) found.add(judge.scanline(point, 0.004), truth.visibility(), point);
         }
     }
-    EXPECT_GT(found.penumbra, static_cast<size_t>(scenes));
+    EXPECT_GT(found.penumbra, scenes);
     EXPECT_LE(found.rmse(), 0.001);
     EXPECT_LE(found.quantile(0.999), 0.004);
     EXPECT_LE(found.largest(), 0.02);

@@ -13,12 +13,6 @@ using test::Deviations;
 using test::Mesh;
 using test::VisibilityJudge;
 
-#if defined(__SANITIZE_ADDRESS__)
-constexpr int effort = 1;
-#else
-constexpr int effort = 8;
-#endif
-
 Scene floor_and_panel() {
     Scene scene;
     test::add_quad(scene, "Floor", {-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2});
@@ -32,8 +26,8 @@ struct Both {
     double truth_sum = 0;
     void add(const VisibilityJudge& judge, const SurfacePoint& point) {
         const double truth = judge.truth(point).visibility();
-        split.add(judge.split(point), truth);
-        scanline.add(judge.scanline(point, 0.001), truth);
+        split.add(judge.split(point), truth, point);
+        scanline.add(judge.scanline(point, 0.001), truth, point);
         truth_sum += truth;
     }
 };
@@ -43,7 +37,7 @@ TEST(VisibilityTraps, FlatDiagonalsOfQuadsSeenEdgeOn) {
     // diagonal are seen from different sides: it must be an edge, or both must count as one plane.
     Both found;
     Choice choice{Random{41}};
-    for (int i = 0; i < 60 * effort; ++i) {
+    for (int i = 0; i < test::cases(480); ++i) {
         Scene scene = floor_and_panel();
         const Vec3 corner(choice.between(-0.5, 0.5), choice.between(0.5, 1), choice.between(-0.5, 0.5));
         const Vec3 u = choice.between(0.3, 0.8) * choice.direction();
@@ -70,7 +64,7 @@ TEST(VisibilityTraps, FlatDiagonalsOfQuadsSeenEdgeOn) {
             found.add(judge, judge.point_below(0, origin));
         }
     }
-    EXPECT_GT(found.split.penumbra, 200u);
+    EXPECT_GT(found.split.penumbra, test::cases(800));
     EXPECT_LT(found.split.largest(), 1e-5);
     EXPECT_LT(found.scanline.largest(), 0.005);
     EXPECT_LT(found.scanline.quantile(0.999), 0.001);
@@ -80,7 +74,7 @@ TEST(VisibilityTraps, HairThinGapsDoNotDecideForTheWholePanel) {
     // Two sheets nearly meet. The least number of occluders is in a gap too thin for a ray of floats.
     Both found;
     Choice choice{Random{42}};
-    for (int i = 0; i < 100 * effort; ++i) {
+    for (int i = 0; i < test::cases(800); ++i) {
         Scene scene = floor_and_panel();
         const double gap = i % 4 == 0 ? 0 : std::pow(10, choice.between(-8, -3));
         const double lean = choice.between(-0.5, 0.5), step = i % 3 == 0 ? choice.between(-1e-6, 1e-6) : 0;
@@ -114,12 +108,12 @@ TEST(VisibilityTraps, LongEdgesAlongTheScanlinesKeepTheError) {
     }
     const VisibilityJudge judge(std::move(scene));
     Choice choice{Random{43}};
-    for (int i = 0; i < 300 * effort; ++i) {
+    for (int i = 0; i < test::cases(2400); ++i) {
         SurfacePoint point = surface_point(judge.scene(), {0, 0}, {1, 0, 0});
         point.position = {choice.between(-1.5, 1.5), 0, choice.between(-1.5, 1.5)};
         found.add(judge, point);
     }
-    EXPECT_GT(found.split.penumbra, 250u);
+    EXPECT_GT(found.split.penumbra, test::cases(1600));
     EXPECT_LT(found.split.largest(), 1e-9 + test::float_ratio);
     EXPECT_LT(found.scanline.largest(), 0.005);
     EXPECT_LT(found.scanline.rmse(), 0.00025);

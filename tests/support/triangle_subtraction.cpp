@@ -94,34 +94,47 @@ double irradiance(const std::vector<Fragment>& fragments, const Sight& sight, co
     return static_cast<double>(sum);
 }
 
-SubtractedIrradiance of_panel(const Obstructed& scene, const Obstructed::Panel& panel, const Vec3& origin,
-                              const Vec3& normal, const Vec3& geometric_normal) {
+/// A panel as seen from an origin, and the part of it above the horizon; none from behind.
+struct LitPanel {
+    Sight sight;
+    Fragment lit;
+    double height = 0, least_area = 0;
+};
+
+LitPanel look_at(const Obstructed& scene, const Obstructed::Panel& panel, const Vec3& origin, const Vec3& normal) {
+    LitPanel result;
     const double front = glm::dot(panel.normal, origin - panel.center);
-    const double height = scene.is_two_sided ? std::abs(front) : front;
-    if (!(height > 0)) return {};
-    Sight sight{panel.center - origin};
-    sight.u = normalize_or(panel.corners[1] - panel.corners[0], {1, 0, 0});
+    result.height = scene.is_two_sided ? std::abs(front) : front;
+    if (!(result.height > 0)) return result;
+    Sight& sight = result.sight;
+    sight.corner = panel.center - origin;
+    sight.u = panel.corners[1] - panel.corners[0];
     sight.u = normalize_or(sight.u - glm::dot(sight.u, panel.normal) * panel.normal, {1, 0, 0});
     sight.v = glm::cross(panel.normal, sight.u);
     Fragment whole;
     for (const Vec3& corner : panel.corners)
         whole.emplace_back(glm::dot(sight.u, corner - panel.center), glm::dot(sight.v, corner - panel.center));
-    const double least_area = 1e-16 * area(whole);
+    result.least_area = 1e-16 * area(whole);
+    result.lit = part(whole, sight.line(normal, 0), 1);
+    return result;
+}
 
-    whole = part(whole, sight.line(normal, 0), 1);
+SubtractedIrradiance of_panel(const Obstructed& scene, const Obstructed::Panel& panel, const Vec3& origin,
+                              const Vec3& normal, const Vec3& geometric_normal) {
+    const LitPanel seen = look_at(scene, panel, origin, normal);
     SubtractedIrradiance result;
-    result.unshadowed = irradiance({whole}, sight, normal);
-    std::vector<Fragment> fragments{part(whole, sight.line(geometric_normal, 0), 1)};
-    whole = fragments[0];
-    const double end = 1 - panel.clearance / height;
-    if (whole.size() < 3) return result;
+    result.unshadowed = irradiance({seen.lit}, seen.sight, normal);
+    const Fragment open = part(seen.lit, seen.sight.line(geometric_normal, 0), 1);
+    if (open.size() < 3) return result;
+    std::vector<Fragment> fragments{open};
+    const double end = 1 - panel.clearance / seen.height;
     for (const auto& t : scene.triangles) {
         if (!(end > 0) || fragments.empty()) break;
         HalfPlanes shadow;
-        if (find_shadow({t[0] - origin, t[1] - origin, t[2] - origin}, sight, end, whole, shadow))
-            subtract(fragments, shadow, least_area);
+        if (find_shadow({t[0] - origin, t[1] - origin, t[2] - origin}, seen.sight, end, open, shadow))
+            subtract(fragments, shadow, seen.least_area);
     }
-    result.shadowed = irradiance(fragments, sight, normal);
+    result.shadowed = irradiance(fragments, seen.sight, normal);
     return result;
 }
 
@@ -177,7 +190,15 @@ SubtractedIrradiance subtract_triangles(const Obstructed& scene, const Vec3& ori
 }
 
 SubtractedIrradiance subtract_triangles(const Obstructed& scene, const RayScene& rays, const SurfacePoint& point) {
-    return subtract_triangles(scene, rays.ray_origin(point), point.normal, point.geometric_normal);
+    const Vec3 origin = rays.ray_origin(point) - scene.center, place = point.position - scene.center;
+    SubtractedIrradiance sum;
+    for (const Obstructed::Panel& panel : scene.panels) {
+        const LitPanel lit = look_at(scene, panel, place, point.normal);
+        const double unshadowed = irradiance({lit.lit}, lit.sight, point.normal);
+        sum.unshadowed += unshadowed;
+        sum.shadowed += unshadowed * of_panel(scene, panel, origin, point.normal, point.geometric_normal).visibility();
+    }
+    return sum;
 }
 
 }  // namespace surimi::test

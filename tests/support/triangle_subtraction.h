@@ -40,7 +40,7 @@ struct SubtractedIrradiance {
 SubtractedIrradiance subtract_triangles(const Obstructed& scene, const Vec3& origin, const Vec3& normal,
                                         const Vec3& geometric_normal);
 
-/// The same for a point of a surface.
+/// For a point of a surface: visibility from where its rays start, panels weighed by their light at the point itself.
 SubtractedIrradiance subtract_triangles(const Obstructed& scene, const RayScene& rays, const SurfacePoint& point);
 
 }  // namespace surimi::test

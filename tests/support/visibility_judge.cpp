@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <utility>
 
 namespace surimi::test {
@@ -34,6 +35,20 @@ double VisibilityJudge::scanline(const SurfacePoint& point, double error, size_t
     return visibility_of(irradiance_at(scene_, rays_, silhouettes_, monitor, point, settings));
 }
 
+bool VisibilityJudge::is_ambiguous(const SurfacePoint& point) const {
+    const Vec3 origin = rays_.ray_origin(point) - rays_.center();
+    const double lift = glm::distance(origin, point.position - rays_.center());
+    return std::ranges::any_of(obstructed_[0].triangles, [&](const std::array<Vec3, 3>& t) {
+        const Vec3 normal = normalize_or(area_normal(t[0], t[1], t[2]), Vec3(0));
+        if (normal == Vec3(0) || std::abs(glm::dot(normal, origin - t[0])) > 0.5 * lift) return false;
+        for (size_t k = 0; k < 3; ++k) {
+            const Vec3 inwards = normalize_or(glm::cross(normal, t[(k + 1) % 3] - t[k]), Vec3(0));
+            if (glm::dot(inwards, origin - t[k]) < -2 * lift) return false;
+        }
+        return true;
+    });
+}
+
 Vec3 VisibilityJudge::seen(const Vec3& vertex) const {
     return Vec3(Vec3f(vertex - rays_.center())) + rays_.center();
 }
@@ -60,8 +75,16 @@ SurfacePoint random_point(const Scene& scene, Choice& choice, double tilt) {
     return point;
 }
 
-void Deviations::add(double value, double truth) {
-    errors.push_back(std::isfinite(value) ? std::abs(value - truth) : INFINITY);
+void Deviations::add(double value, double truth, const SurfacePoint& where) {
+    const double error = std::isfinite(value) ? std::abs(value - truth) : INFINITY;
+    if (error > most_) {
+        std::ostringstream text;
+        text << "worst: " << value << " for " << truth << " on surface " << where.triangle.surface << " at ("
+             << where.position.x << ", " << where.position.y << ", " << where.position.z << ")";
+        worst = text.str();
+    }
+    most_ = std::max(most_, error);
+    errors.push_back(error);
     penumbra += truth > 1e-6 && truth < 1 - 1e-6;
 }
 
@@ -72,7 +95,7 @@ double Deviations::rmse() const {
 }
 
 double Deviations::largest() const {
-    return errors.empty() ? 0 : *std::max_element(errors.begin(), errors.end());
+    return most_;
 }
 
 double Deviations::quantile(double share) const {

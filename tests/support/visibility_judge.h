@@ -3,6 +3,7 @@
 // between the two.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "baker/gather/gather.h"
@@ -10,6 +11,16 @@
 #include "tests/support/triangle_subtraction.h"
 
 namespace surimi::test {
+
+#if defined(__SANITIZE_ADDRESS__)
+inline constexpr bool is_slow_build = true;
+#else
+inline constexpr bool is_slow_build = false;
+#endif
+/// A number of cases, or fewer with sanitizers.
+constexpr int cases(int count) {
+    return is_slow_build ? (count + 9) / 10 : count;
+}
 
 /// IrradianceEstimate is float: a ratio of two of them is off by up to this.
 inline constexpr double float_ratio = 0x1p-23;
@@ -31,6 +42,9 @@ class VisibilityJudge {
     /// The engine's, by scanlines.
     double scanline(const SurfacePoint& point, double error, size_t monitor = 0) const;
 
+    /// Does a ray from there start on another surface, so that rounding decides on which side of it?
+    bool is_ambiguous(const SurfacePoint& point) const;
+
     /// As Embree sees a vertex: float relative to the scene's centre. In the scene's coordinates.
     Vec3 seen(const Vec3& vertex) const;
     /// A point above which rays start exactly at `origin`, on the front of triangle 0 of `surface`.
@@ -48,15 +62,21 @@ class VisibilityJudge {
 SurfacePoint random_point(const Scene& scene, Choice& choice, double tilt);
 
 /// Absolute errors.
-struct Deviations {
+class Deviations {
+  public:
     std::vector<double> errors;
-    size_t penumbra = 0;  ///< of them where neither nothing nor all is seen
+    int penumbra = 0;  ///< of them where neither nothing nor all is seen
 
-    void add(double value, double truth);
+    std::string worst;  ///< where, and what it was and should be
+
+    void add(double value, double truth, const SurfacePoint& where);
     double rmse() const;
     double largest() const;
     /// The error that this share of them does not exceed.
     double quantile(double share) const;
+
+  private:
+    double most_ = 0;
 };
 
 }  // namespace surimi::test
