@@ -47,6 +47,24 @@ void find_near(PanelSight& sight, const Vec3& middle, double texel_size) {
             sight.near.push_back(i);
 }
 
+/// Cut edges are stored as float. Off the plane of the clearance, what is rounded moves as far as a grazing view
+/// reaches; so they are put back on the line in which their triangle meets that plane.
+void put_on_lines(Candidates& c, size_t first_cut, const Panel& panel) {
+    for (size_t i = first_cut; i < c.ax.size(); ++i) {
+        const Vec3 n(c.nx[i], c.ny[i], c.nz[i]);
+        const double cosine = glm::dot(n, panel.normal), sine2 = 1 - cosine * cosine;
+        if (!(sine2 > 1e-6)) continue;
+        const auto move = [&](double& x, double& y, double& z) {
+            const Vec3 p(x, y, z);
+            const double f = glm::dot(n, p) - c.nd[i], g = panel.height(p) - panel.clearance;
+            const Vec3 moved = p - ((f - cosine * g) * n + (g - cosine * f) * panel.normal) / sine2;
+            x = moved.x, y = moved.y, z = moved.z;
+        };
+        move(c.ax[i], c.ay[i], c.az[i]);
+        move(c.bx[i], c.by[i], c.bz[i]);
+    }
+}
+
 size_t look_at_panel(BlockSight& block, PanelSight& sight, const MonitorSetup& setup, size_t panel_index,
                      const Shaft& shaft) {
     sight.is_hidden = is_hidden_by_facet(setup, *sight.panel, shaft);
@@ -60,6 +78,7 @@ size_t look_at_panel(BlockSight& block, PanelSight& sight, const MonitorSetup& s
     if (!cuts.nodes.empty()) {
         find_candidates(cuts, shaft, setup.monitor, block.found);
         sight.candidates.append(cuts, block.found);
+        put_on_lines(sight.candidates, sight.first_cut, *sight.panel);
         sight.candidates.finish();
     }
     return 1;
