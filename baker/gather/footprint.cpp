@@ -21,7 +21,9 @@ double second_difference(const TileGrid& grid, std::span<const double> values, c
             is_whole = member >= 0;
             if (is_whole) row[static_cast<size_t>(k)] = values[static_cast<size_t>(member)];
         }
-        if (is_whole) return std::abs(row[0] - 2 * row[1] + row[2]);
+        if (!is_whole) continue;
+        const double difference = std::abs(row[0] - 2 * row[1] + row[2]);
+        return std::isfinite(difference) ? difference : unknown;  // of two unknown values it is no number
     }
     return unknown;
 }
