@@ -160,7 +160,7 @@ class BlockLighter {
         if (center.has_failed || center.is_dear || block_.is_curved[i] || block_.is_pierced[i] || center.has_near ||
             center.is_self_hidden)
             return refine();
-        if (error > tolerances(setup_.settings).footprint / 2) return refine();
+        if (error > tolerances(setup_.settings).footprint) return refine();
         TexelLight texel{center, 1};
         texel.light.error = std::hypot(center.error, error);
         texel.is_by_center = true;
