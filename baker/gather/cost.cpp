@@ -11,8 +11,8 @@ Tolerances tolerances(const GatherSettings& settings) {
     const double error = settings.error;
     result.lines = 0.75 * error;
     result.footprint = 0.25 * error;
-    // The estimate is above the truth by up to 8^(1/4) (M52): true errors are a third of the one asked for.
-    result.monte_carlo = error / 2;
+    // 99.9 % of all texels within the error, when a tenth of them is left to rays.
+    result.monte_carlo = error / 2.6;
     // Features between two lines go unseen: (2.8 / lines)^2 / 4 of the panel's square at most.
     result.first_lines = error >= 0.015 ? 16 : error >= 0.003 ? 32 : 64;
     return result;

@@ -12,6 +12,7 @@ namespace surimi {
 struct TexelLight {
     PointLight light;
     size_t points = 0;
+    bool is_by_center = false;       ///< see LitTexel
     double lowest = 1, highest = 0;  ///< visibility of any point
 };
 
