@@ -34,6 +34,9 @@ std::vector<Panel> panels_of(const Monitor& monitor, const RayScene& rays);
 /// origin is closer than that or behind the panel. Rays end there.
 double end_of_rays(const Panel& panel, const Vec3& origin);
 
+/// E (M1) of the panel at unit radiance. 0 behind the panel and, to rounding, in its plane.
+double unshadowed_from(const Panel& panel, const Vec3& position, const Vec3& normal);
+
 /// A point that rays start from and the part of a panel that lights it.
 struct PanelView {
     const Panel* panel = nullptr;
