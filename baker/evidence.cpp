@@ -62,6 +62,7 @@ Audit joined_audit(const std::vector<Audit>& pages) {
     double below = 0;
     double above = 0;
     double reference = 0;
+    all.beyond_high = all.texels > 0 ? 0 : 1;
     for (const Audit& page : pages) {
         if (page.texels == 0) continue;
         const double share = static_cast<double>(page.texels) / static_cast<double>(all.texels);

@@ -42,20 +42,16 @@ bool is_partly_lit(const MonitorSetup& setup, const TexelSurface& surface) {
 
 class BlockLighter {
   public:
-    BlockLighter(const MonitorSetup& setup, const BlockSurfaces& block, BlockWorkspace& work,
-                 std::span<IrradianceEstimate> estimates, GatherStatistics& statistics)
-        : setup_(setup), block_(block), work_(work), estimates_(estimates), statistics_(statistics) {}
+    BlockLighter(const MonitorSetup& setup, const BlockSurfaces& block, std::span<const double> footprints,
+                 BlockWorkspace& work, GatherStatistics& statistics)
+        : setup_(setup), block_(block), footprints_(footprints), work_(work), statistics_(statistics) {}
 
-    void run() {
+    void run(std::span<LitTexel> texels) {
+        texels_ = texels;
         rays_of_query_ = look_from(work_.sight, setup_, block_.corners, block_.texel_size);
         statistics_.query_seconds += clock_.lap();
         if (work_.sight.count == 0) return write_unlit();
-        ++statistics_.blocks;
-        if (work_.sight.is_hidden())
-            ++statistics_.shadowed_blocks;
-        else if (work_.sight.candidates() == 0)
-            ++statistics_.open_blocks;
-        statistics_.candidates += work_.sight.candidates();
+        if (footprints_.empty()) count_block();
         if (only_rays()) return light_by_rays();
         light_centers();
         refine_texels();
@@ -72,6 +68,15 @@ class BlockLighter {
                    cost_of_monte_carlo(tolerances(setup_.settings).monte_carlo);
     }
 
+    void count_block() {
+        ++statistics_.blocks;
+        if (work_.sight.is_hidden())
+            ++statistics_.shadowed_blocks;
+        else if (work_.sight.candidates() == 0)
+            ++statistics_.open_blocks;
+        statistics_.candidates += work_.sight.candidates();
+    }
+
     uint64_t key(size_t i) const {
         return hash(hash(setup_.settings.seed, static_cast<uint64_t>(setup_.light().channel)), block_.keys[i]);
     }
@@ -80,25 +85,24 @@ class BlockLighter {
         const PointLight& light = texel.light;
         const bool is_lit = light.unshadowed > 0;
         const TexelMethod method = is_lit ? light.method : TexelMethod::none;
-        estimates_[i] = {static_cast<float>(light.unshadowed), static_cast<float>(light.shadowed),
-                         static_cast<float>(is_lit ? light.error : 0), method};
+        texels_[i].estimate = {static_cast<float>(light.unshadowed), static_cast<float>(light.shadowed),
+                               static_cast<float>(is_lit ? light.error : 0), method};
+        texels_[i].is_by_center = texel.is_by_center;
         GatherStatistics::OfMethod& of = statistics_.methods[static_cast<size_t>(method)];
-        ++of.texels;
         of.points += texel.points;
         of.rays += light.rays + (i == 0 ? rays_of_query_ : 0);
         of.seconds += clock_.lap();
         statistics_.segments += light.segments;
         if (texel.points > 1) ++statistics_.refined_texels;
         if (light.has_failed) ++statistics_.failed_checks;
-        if (is_lit) statistics_.count_error(static_cast<double>(estimates_[i].error), setup_.settings.error);
     }
 
     void write_unlit() {
-        for (size_t i = 0; i < estimates_.size(); ++i) write(i, {});
+        for (size_t i = 0; i < texels_.size(); ++i) write(i, {});
     }
 
     void light_by_rays() {
-        for (size_t i = 0; i < estimates_.size(); ++i) {
+        for (size_t i = 0; i < texels_.size(); ++i) {
             double unshadowed = unshadowed_at(setup_, block_.centers[i]);
             if (!(unshadowed > 0) && is_partly_lit(setup_, block_.texels[i])) unshadowed = cell_average(i);
             write(i, unshadowed > 0 ? by_rays(setup_, block_.texels[i], unshadowed, key(i)) : TexelLight{});
@@ -116,7 +120,7 @@ class BlockLighter {
         work_.centers.clear();
         work_.visibilities.clear();
         work_.point.texel_size = block_.texel_size;
-        for (size_t i = 0; i < estimates_.size(); ++i) {
+        for (size_t i = 0; i < texels_.size(); ++i) {
             work_.centers.push_back(light_at(setup_, work_.sight, block_.centers[i], key(i), work_.point));
             const PointLight& light = work_.centers.back();
             // What is not known makes the differences with it unknown.
@@ -126,44 +130,48 @@ class BlockLighter {
     }
 
     void refine_texels() {
-        const double half = clock_.lap() / static_cast<double>(estimates_.size());
+        const double half = clock_.lap() / static_cast<double>(texels_.size());
         for (size_t y = 0; y < tile_size; ++y)
             for (size_t x = 0; x < tile_size; ++x) {
                 const int member = block_.grid[y * tile_size + x];
                 if (member < 0) continue;
                 const auto i = static_cast<size_t>(member);
-                const Vec2 differences =
-                    second_differences(block_.grid, work_.visibilities, static_cast<int>(x), static_cast<int>(y));
-                const TexelLight texel = finish(i, differences);
-                write(i, texel);
-                statistics_.methods[static_cast<size_t>(estimates_[i].method)].seconds += half;
+                const double error = footprints_.empty()
+                                         ? footprint_error(second_differences(block_.grid, work_.visibilities,
+                                                                              static_cast<int>(x), static_cast<int>(y)))
+                                         : footprints_[i];
+                write(i, finish(i, error));
+                statistics_.methods[static_cast<size_t>(texels_[i].estimate.method)].seconds += half;
             }
     }
 
-    TexelLight finish(size_t i, const Vec2& differences) {
+    TexelLight finish(size_t i, double error) {
         const PointLight& center = work_.centers[i];
         if (center.unshadowed > 0 && work_.sight.is_hidden()) return {center, 1};
         const TexelSurface& surface = block_.texels[i];
-        const double error = footprint_error(differences);
         const auto refine = [&] {
-            const int side = block_.is_curved[i] || center.has_near ? 4 : 2;
+            const int side = block_.is_curved[i] || center.has_near || std::isinf(error) ? 4 : 2;
             return refined(setup_, work_.sight, surface, {center, error, side}, key(i), work_.point);
         };
         if (!(center.unshadowed > 0)) return is_partly_lit(setup_, surface) ? refine() : TexelLight{center, 1};
-        const bool may_trace = !setup_.settings.is_exact && setup_.settings.method != Method::split;
-        if (may_trace && block_.is_pierced[i]) return by_rays(setup_, surface, center.unshadowed, key(i));
-        if (center.has_failed || center.is_dear || block_.is_curved[i] || block_.is_pierced[i] || center.has_near)
+        const bool may_trace = setup_.settings.method != Method::split;
+        if (may_trace && (block_.is_pierced[i] || center.is_self_hidden))
+            return by_rays(setup_, surface, center.unshadowed, key(i));
+        if (center.has_failed || center.is_dear || block_.is_curved[i] || block_.is_pierced[i] || center.has_near ||
+            center.is_self_hidden)
             return refine();
-        if (error > tolerances(setup_.settings).footprint / 2) return refine();
+        if (error > tolerances(setup_.settings).footprint) return refine();
         TexelLight texel{center, 1};
         texel.light.error = std::hypot(center.error, error);
+        texel.is_by_center = true;
         return texel;
     }
 
     const MonitorSetup& setup_;
     const BlockSurfaces& block_;
+    std::span<const double> footprints_;
     BlockWorkspace& work_;
-    std::span<IrradianceEstimate> estimates_;
+    std::span<LitTexel> texels_;
     GatherStatistics& statistics_;
     size_t rays_of_query_ = 0;
     Clock clock_;
@@ -171,9 +179,9 @@ class BlockLighter {
 
 }  // namespace
 
-void light_block(const MonitorSetup& setup, const BlockSurfaces& block, BlockWorkspace& work,
-                 std::span<IrradianceEstimate> estimates, GatherStatistics& statistics) {
-    BlockLighter(setup, block, work, estimates, statistics).run();
+void light_block(const MonitorSetup& setup, const BlockSurfaces& block, std::span<const double> footprints,
+                 BlockWorkspace& work, std::span<LitTexel> texels, GatherStatistics& statistics) {
+    BlockLighter(setup, block, footprints, work, statistics).run(texels);
 }
 
 }  // namespace surimi

@@ -37,8 +37,15 @@ struct BlockWorkspace {
     std::vector<double> visibilities;
 };
 
-/// Writes one estimate for each texel of the block and adds to `statistics`.
-void light_block(const MonitorSetup& setup, const BlockSurfaces& block, BlockWorkspace& work,
-                 std::span<IrradianceEstimate> estimates, GatherStatistics& statistics);
+/// What became of a texel.
+struct LitTexel {
+    IrradianceEstimate estimate;
+    bool is_by_center = false;  ///< lit, and judged by its centre alone: what neighbours say may not have been heard
+};
+
+/// Writes one for each texel of the block and adds to `statistics` (all but its counts of texels). `footprints`: what
+/// is known of the texels' footprint_error; empty: found from the block's own centres.
+void light_block(const MonitorSetup& setup, const BlockSurfaces& block, std::span<const double> footprints,
+                 BlockWorkspace& work, std::span<LitTexel> texels, GatherStatistics& statistics);
 
 }  // namespace surimi

@@ -31,13 +31,13 @@ bool is_hidden_by_facet(const MonitorSetup& setup, const Panel& panel, const Sha
     return separates(setup.silhouettes.planes[plane], shaft) && !meets_rim(setup.silhouettes, shaft, plane);
 }
 
-/// Candidates so close to the block that moving by half a texel moves their shadows by half the panel or more: between
-/// the middles of two texels such a shadow could go unseen.
+/// Candidates so close to the block that moving by an eighth of a texel moves their shadows by half the panel or more:
+/// between the middles of four cells of a texel such a shadow could go unseen.
 void find_near(PanelSight& sight, const Vec3& middle, double texel_size) {
     const Panel& panel = *sight.panel;
     const double reach = std::min(glm::length(panel.axis_s), glm::length(panel.axis_t));
-    // (1 - w) / w > reach / (texel / 2), w: height over the block as a share of the way to the panel
-    const double nearest = 1 / (1 + 2 * reach / texel_size);
+    // (1 - w) / w > reach / (texel / 8), w: height over the block as a share of the way to the panel
+    const double nearest = 1 / (1 + 8 * reach / texel_size);
     const double height = panel.height(middle);
     sight.near.clear();
     const Candidates& c = sight.candidates;

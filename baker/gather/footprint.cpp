@@ -3,27 +3,32 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace surimi {
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::infinity();
 
+/// The value at a place of the grid, if a texel is there.
+std::optional<double> value_at(const TileGrid& grid, std::span<const double> values, const glm::ivec2& p) {
+    if (p.x < 0 || p.y < 0 || p.x >= tile_size || p.y >= tile_size) return std::nullopt;
+    const int member = grid[static_cast<size_t>(p.y * tile_size + p.x)];
+    if (member < 0 || !std::isfinite(values[static_cast<size_t>(member)])) return std::nullopt;
+    return values[static_cast<size_t>(member)];
+}
+
 double second_difference(const TileGrid& grid, std::span<const double> values, const glm::ivec2& at,
                          const glm::ivec2& step) {
-    for (const int shift : {-1, -2, 0}) {  // of the row's first texel
-        std::array<double, 3> row{};
-        bool is_whole = true;
-        for (int k = 0; k < 3 && is_whole; ++k) {
-            const glm::ivec2 p = at + (shift + k) * step;
-            is_whole = p.x >= 0 && p.y >= 0 && p.x < tile_size && p.y < tile_size;
-            const int member = is_whole ? grid[static_cast<size_t>(p.y * tile_size + p.x)] : -1;
-            is_whole = member >= 0;
-            if (is_whole) row[static_cast<size_t>(k)] = values[static_cast<size_t>(member)];
-        }
-        if (is_whole) return std::abs(row[0] - 2 * row[1] + row[2]);
-    }
-    return unknown;
+    const double center = value_at(grid, values, at).value_or(unknown);
+    if (!std::isfinite(center)) return unknown;
+    const auto left = value_at(grid, values, at - step), right = value_at(grid, values, at + step);
+    if (left && right) return std::abs(*left - 2 * center + *right);
+    const auto neighbour = left ? left : right;
+    if (!neighbour) return unknown;
+    const auto beyond = value_at(grid, values, left ? at - 2 * step : at + 2 * step);
+    // Of a pair nothing is known but that it may be a step.
+    return beyond ? std::abs(center - 2 * *neighbour + *beyond) : std::abs(center - *neighbour);
 }
 
 }  // namespace
@@ -33,7 +38,7 @@ Vec2 second_differences(const TileGrid& grid, std::span<const double> values, in
 }
 
 double footprint_error(const Vec2& differences) {
-    return (differences.x + differences.y) / 24;
+    return (differences.x + differences.y) / 10;
 }
 
 }  // namespace surimi

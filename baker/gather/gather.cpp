@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "baker/gather/block_light.h"
 #include "baker/gather/blocks.h"
@@ -34,34 +35,113 @@ void GatherStatistics::add(const GatherStatistics& other) {
     above_error += other.above_error;
 }
 
-void GatherStatistics::count_error(double error, double asked) {
+void GatherStatistics::count(const IrradianceEstimate& estimate, double asked) {
+    ++methods[static_cast<size_t>(estimate.method)].texels;
+    if (!(estimate.unshadowed > 0)) return;
+    const auto error = static_cast<double>(estimate.error);
     const int exponent = error > 0 ? std::ilogb(error) : -bins;  // error < 2^(exponent + 1)
     const int bin = error > 0 ? std::clamp(exponent + bins, 1, bins - 1) : 0;
     ++error_histogram[static_cast<size_t>(bin)];
     if (error > asked) ++above_error;
 }
 
+namespace {
+
+/// One call of gather: its blocks, and what became of the texels so far.
+struct Gathering {
+    const Atlas& atlas;
+    const Texels& texels;
+    MonitorSetup setup;
+    Blocks blocks;
+    std::vector<LitTexel> lit;        ///< one for each of Texels::texels
+    std::vector<uint32_t> number_at;  ///< of the texel at each place of the map, or `nobody`
+    std::vector<GatherStatistics> parts;
+
+    static constexpr uint32_t nobody = 0xffffffffu;
+    static constexpr size_t grain = 4;  // blocks; a few milliseconds
+};
+
+/// Lights some texels of one block; `footprints` as in light_block.
+void light_members(Gathering& g, std::span<const uint32_t> members, std::span<const double> footprints,
+                   GatherStatistics& statistics) {
+    thread_local BlockWorkspace work;
+    std::vector<LitTexel> texels(members.size());
+    const BlockSurfaces block = block_surfaces(g.setup.scene, g.atlas, g.texels, g.setup.rays, members);
+    light_block(g.setup, block, footprints, work, texels, statistics);
+    for (size_t i = 0; i < members.size(); ++i) g.lit[members[i]] = texels[i];
+}
+
+/// footprint_error of a texel by its neighbours on both sides, 0 where one is missing, of another chart or unlit.
+double footprint_across_tiles(const Gathering& g, const std::vector<float>& visibility, uint32_t number) {
+    const Texel& texel = g.texels.texels[number];
+    const int width = g.texels.width, height = g.texels.height;
+    const int x = static_cast<int>(texel.index) % width, y = static_cast<int>(texel.index) / width;
+    const auto value = [&](int px, int py) -> double {
+        if (px < 0 || py < 0 || px >= width || py >= height) return NAN;
+        const uint32_t other = g.number_at[static_cast<size_t>(py * width + px)];
+        const bool is_mate = other != Gathering::nobody && g.texels.texels[other].chart == texel.chart;
+        return is_mate ? static_cast<double>(visibility[other]) : NAN;
+    };
+    const auto difference = [&](int dx, int dy) {
+        const double second = std::abs(value(x - dx, y - dy) - 2 * value(x, y) + value(x + dx, y + dy));
+        return second >= 0 ? second : 0;  // NaN: not known
+    };
+    return footprint_error({difference(1, 0), difference(0, 1)});
+}
+
+/// Texels at the rim of a tile that were judged by their centre, without the neighbour in the next tile.
+void light_rims_again(Gathering& g, const Progress& progress) {
+    std::vector<float> visibility(g.lit.size());
+    for (size_t i = 0; i < g.lit.size(); ++i) {
+        const IrradianceEstimate& e = g.lit[i].estimate;
+        visibility[i] = e.unshadowed > 0 ? e.shadowed / e.unshadowed : std::numeric_limits<float>::quiet_NaN();
+    }
+    const double limit = tolerances(g.setup.settings).footprint;
+    const auto width = static_cast<uint32_t>(g.texels.width);
+    const auto is_rim = [&](uint32_t index) {
+        const uint32_t x = index % width % tile_size, y = index / width % tile_size;
+        return x == 0 || y == 0 || x + 1 == tile_size || y + 1 == tile_size;
+    };
+    parallel_stage("light from " + g.setup.light().name, g.blocks.count(), Gathering::grain, progress,
+                   [&](size_t begin, size_t end) {
+                       for (size_t b = begin; b < end; ++b) {
+                           std::vector<uint32_t> members;
+                           std::vector<double> footprints;
+                           for (const uint32_t number : g.blocks[b]) {
+                               if (!g.lit[number].is_by_center || !is_rim(g.texels.texels[number].index)) continue;
+                               const double error = footprint_across_tiles(g, visibility, number);
+                               if (error > limit) members.push_back(number), footprints.push_back(error);
+                           }
+                           if (!members.empty())
+                               light_members(g, members, footprints, g.parts[begin / Gathering::grain]);
+                       }
+                   });
+}
+
+}  // namespace
+
 Gathered gather(const Scene& scene, const Atlas& atlas, const Texels& texels, const RayScene& rays,
                 const Silhouettes& silhouettes, size_t monitor, const GatherSettings& settings,
                 const Progress& progress) {
-    const MonitorSetup setup = set_up(scene, rays, silhouettes, monitor, settings);
-    const Blocks blocks = find_blocks(texels);
-    constexpr size_t grain = 4;  // blocks; a few milliseconds
+    Gathering g{atlas, texels, set_up(scene, rays, silhouettes, monitor, settings), find_blocks(texels), {}, {}, {}};
+    g.lit.resize(texels.texels.size());
+    g.parts.resize((g.blocks.count() + Gathering::grain - 1) / Gathering::grain);
+    g.number_at.assign(static_cast<size_t>(texels.width) * static_cast<size_t>(texels.height), Gathering::nobody);
+    for (uint32_t i = 0; i < texels.texels.size(); ++i) g.number_at[texels.texels[i].index] = i;
+
+    parallel_stage("light from " + g.setup.light().name, g.blocks.count(), Gathering::grain, part_of(progress, 0, 2),
+                   [&](size_t begin, size_t end) {
+                       for (size_t b = begin; b < end; ++b)
+                           light_members(g, g.blocks[b], {}, g.parts[begin / Gathering::grain]);
+                   });
+    light_rims_again(g, part_of(progress, 1, 2));
+
     Gathered result;
-    result.estimates.resize(texels.texels.size());
-    std::vector<GatherStatistics> statistics((blocks.count() + grain - 1) / grain);
-    parallel_stage("light from " + setup.light().name, blocks.count(), grain, progress, [&](size_t begin, size_t end) {
-        thread_local BlockWorkspace work;
-        std::vector<IrradianceEstimate> estimates;
-        for (size_t b = begin; b < end; ++b) {
-            const std::span<const uint32_t> members = blocks[b];
-            estimates.assign(members.size(), {});
-            light_block(setup, block_surfaces(scene, atlas, texels, rays, members), work, estimates,
-                        statistics[begin / grain]);
-            for (size_t i = 0; i < members.size(); ++i) result.estimates[members[i]] = estimates[i];
-        }
-    });
-    for (const GatherStatistics& part : statistics) result.statistics.add(part);
+    for (const GatherStatistics& part : g.parts) result.statistics.add(part);
+    for (const LitTexel& texel : g.lit) {
+        result.estimates.push_back(texel.estimate);
+        result.statistics.count(texel.estimate, settings.error);
+    }
     return result;
 }
 

@@ -47,7 +47,7 @@ struct GatherStatistics {
 
     size_t rays() const;
     void add(const GatherStatistics& other);
-    void count_error(double error, double asked);  ///< of one more texel
+    void count(const IrradianceEstimate& estimate, double asked);  ///< one more texel
 };
 
 struct Gathered {

@@ -38,7 +38,7 @@ struct MonteCarloTask {
 
 struct MonteCarloEstimate {
     double visibility = 0;  ///< in [0, 1]; 0 where no sample is lit
-    /// Standard error of it, from pairs of samples that share a cell (M52): not below the truth on average, and never
+    /// Standard error of it, from the spread of eighths of the samples (M52): not below the truth on average, and never
     /// 0, since what N samples have not met may be there. 1 where no sample is lit.
     double error = 1;
     size_t rays = 0;      ///< fewer than samples where the monitor is partly behind or below the horizon

@@ -19,10 +19,9 @@ Vec2 middle_of(std::span<const Vec2> polygon) {
 /// No silhouette on the open part of the panel: all of it or nothing.
 PointVisibility by_one_ray(const MonitorSetup& setup, const PanelView& view) {
     PointVisibility result;
-    RayPacket packet;
-    packet.add(view.origin, view.panel->at(middle_of(view.open)), view.end);
     result.rays = 1;
-    if (setup.rays.occluded(packet, setup.monitor) != 0) return result;
+    const Vec3 target = view.panel->at(middle_of(view.open));
+    if (setup.rays.is_occluded_until(view.end, view.origin, target, setup.monitor)) return result;
     const bool is_whole = view.open.size() == view.lit.size() && view.open == view.lit;
     result.visibility =
         is_whole ? 1 : std::min(1.0, contour_integral(view, view.open) / contour_integral(view, view.lit));
@@ -125,7 +124,7 @@ PointLight light_at(const MonitorSetup& setup, const BlockSight& sight, const Su
         if (panel_sight.is_hidden) continue;
         look_at(work.view, panel, origin, point.normal, point.geometric_normal);
         if (work.view.open.empty()) {
-            light.has_near = light.has_near || !work.view.lit.empty();  // a neighbouring triangle may see it
+            light.is_self_hidden = light.is_self_hidden || !work.view.lit.empty();
             continue;
         }
         light.has_near = light.has_near || std::ranges::any_of(panel_sight.near, [&](size_t edge) {

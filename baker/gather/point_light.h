@@ -17,10 +17,11 @@ struct PointLight {
     double error = 0;       ///< estimate of what S / E may be off by
     TexelMethod method = TexelMethod::none;
     size_t rays = 0;
-    size_t segments = 0;      ///< silhouettes on the panels
-    bool has_near = false;    ///< a shadow that may be narrower than the texel falls on it
-    bool has_failed = false;  ///< a cross-check disagreed: the value is not to be used
-    bool is_dear = false;     ///< not evaluated: rays alone are cheaper for the texel
+    size_t segments = 0;          ///< silhouettes on the panels
+    bool has_near = false;        ///< a shadow that may be narrower than the texel falls on it
+    bool is_self_hidden = false;  ///< the shading normal admits light that the point's own triangle blocks
+    bool has_failed = false;      ///< a cross-check disagreed: the value is not to be used
+    bool is_dear = false;         ///< not evaluated: rays alone are cheaper for the texel
 
     double visibility() const { return unshadowed > 0 ? shadowed / unshadowed : 0; }
 };

@@ -13,24 +13,27 @@ namespace {
 
 using Work = ScanlineWorkspace;
 
-/// Angles of the lines that are tried, rad: none is parallel to the panel's sides or diagonals.
-constexpr std::array<double, 5> angles = {0.25, 0.5, 0.7854, 1.05, 1.3};
+/// Directions of the lines that are tried, 0.25, 0.5, 0.7854, 1.05 and 1.3 rad: none is parallel to the panel's sides.
+constexpr std::array<Vec2, 5> directions = {
+    Vec2(0.968912421710645, 0.247403959254523), Vec2(0.877582561890373, 0.479425538604203),
+    Vec2(0.707105482510711, 0.707108079857943), Vec2(0.497571047891727, 0.867423225594017),
+    Vec2(0.267498828624587, 0.963558185417193)};
 
-/// Lines nearly along long silhouettes meet them in few places: the angle with the least sum of squared errors,
+/// Lines nearly along long silhouettes meet them in few places: the direction with the least sum of squared errors,
 /// |dx| min(1, (spacing / dy)^2) for each long segment, wins (research/sampling.md 2.5).
-double choose_angle(const Segments& segments, double spacing) {
-    std::array<double, angles.size()> sums{};
+Vec2 choose_direction(const Segments& segments, double spacing) {
+    std::array<double, directions.size()> sums{};
     for (size_t i = 0; i < segments.count; ++i) {
         const double dx = segments.x1[i] - segments.x0[i], dy = segments.y1[i] - segments.y0[i];
         if (dx * dx + dy * dy < 9 * spacing * spacing) continue;
-        for (size_t k = 0; k < angles.size(); ++k) {
-            const double c = std::cos(angles[k]), s = std::sin(angles[k]);
-            const double across = std::abs(dx * c + dy * s), along = std::abs(dy * c - dx * s);
-            const double share = along < spacing ? 1 : spacing / along * (spacing / along);
+        for (size_t k = 0; k < directions.size(); ++k) {
+            const double across = dx * directions[k].x + dy * directions[k].y;
+            const double along2 = std::pow(dy * directions[k].x - dx * directions[k].y, 2);
+            const double share = along2 < spacing * spacing ? 1 : spacing * spacing / along2;
             sums[k] += across * share * across * share;
         }
     }
-    return angles[static_cast<size_t>(std::ranges::min_element(sums) - sums.begin())];
+    return directions[static_cast<size_t>(std::ranges::min_element(sums) - sums.begin())];
 }
 
 class Scan {
@@ -52,9 +55,9 @@ class Scan {
   private:
     void place_lattice() {
         // 2.8: the panel's square under the steepest angle.
-        const double angle = choose_angle(segments_, 2.8 / task_.lines);
-        lattice_.cosine = std::cos(angle);
-        lattice_.sine = std::sin(angle);
+        const Vec2 direction = choose_direction(segments_, 2.8 / task_.lines);
+        lattice_.cosine = direction.x;
+        lattice_.sine = direction.y;
         double low = INFINITY, high = -INFINITY;
         for (const Vec2& corner : view_.lit) {
             const double y = lattice_.to_frame(corner).y;
@@ -216,9 +219,8 @@ class Scan {
 
     bool is_free(const Vec2& place) {
         ++result_.rays;
-        RayPacket packet;
-        packet.add(view_.origin, view_.panel->at(lattice_.to_panel(place)), view_.end);
-        return task_.rays.occluded(packet, task_.monitor) == 0;
+        const Vec3 target = view_.panel->at(lattice_.to_panel(place));
+        return !task_.rays.is_occluded_until(view_.end, view_.origin, target, task_.monitor);
     }
 
     /// The lowest level that a ray finds free has no occluders, and the levels below it, which cannot exist, must be
@@ -272,7 +274,11 @@ class Scan {
         const Panel& panel = *view_.panel;
         const Vec3 along = panel.axis_s * lattice_.cosine + panel.axis_t * lattice_.sine;
         const Vec3 up = panel.axis_t * lattice_.cosine - panel.axis_s * lattice_.sine;
+        const Vec3 to_center = panel.center - view_.origin;
         const double along2 = glm::dot(along, along), rise = glm::dot(view_.normal, along);
+        // Of the line's start, center + height * up: products with itself, with the line and with the normal.
+        const double c_along = glm::dot(to_center, along), u_along = glm::dot(up, along);
+        const double c_normal = glm::dot(to_center, view_.normal), u_normal = glm::dot(up, view_.normal);
         LineEnds& ends = work_.ends;
         ends.clear();
         work_.owners.clear();
@@ -280,12 +286,11 @@ class Scan {
             const Work::Line& line = work_.lines[static_cast<size_t>(j)];
             if (!(line.lit_begin < line.lit_end)) continue;
             // The foot of the point on the line, from which x is counted.
-            const Vec3 start = panel.center - view_.origin + lattice_.height(j) * up;
-            const double foot = -glm::dot(start, along) / along2;
-            const Vec3 nearest = start + foot * along;
+            const double height = lattice_.height(j), foot = -(c_along + height * u_along) / along2;
+            const Vec3 nearest = to_center + height * up + foot * along;
             const double distance2 = glm::dot(nearest, nearest);
             const double scale = std::sqrt(along2 / distance2), factor = 0.5 / (distance2 * along2);
-            const double weight = factor * scale * glm::dot(view_.normal, nearest), offset = factor * rise;
+            const double weight = factor * scale * (c_normal + height * u_normal + foot * rise), offset = factor * rise;
             const auto add = [&](float x, double sign, bool is_arriving) {
                 ends.add((x - foot) * scale, sign * weight, sign * offset);
                 work_.owners.push_back({static_cast<uint8_t>(j & 3), is_arriving});

@@ -137,7 +137,7 @@ TexelLight by_rays(const MonitorSetup& setup, const TexelSurface& surface, doubl
 TexelLight refined(const MonitorSetup& setup, const BlockSight& sight, const TexelSurface& surface,
                    const Beginning& from, uint64_t key, PointWorkspace& work) {
     const Tolerances limits = tolerances(setup.settings);
-    const bool may_trace = !setup.settings.is_exact && setup.settings.method != Method::split;
+    const bool may_trace = setup.settings.method != Method::split;
     const double cost_of_point =
         cost_of_projecting(sight.candidates()) + cost_of_scan(work.segments.count, limits.first_lines);
     TexelLight best{from.center, 1};
@@ -148,16 +148,18 @@ TexelLight refined(const MonitorSetup& setup, const BlockSight& sight, const Tex
         const double change = std::abs(next.light.visibility() - best.light.visibility());
         next = with_cost_of(next, best);
         best = next;
-        // Halving the cells leaves a quarter of the error where light is smooth: a third of what the step changed.
-        best.light.error = std::hypot(next.light.error, change / 3);
+        // Halving the cells leaves a quarter of the error where light is smooth: a third of what the step changed, and
+        // a fifteenth of two steps' change, of which half is believed.
+        const double left_by_change = side == 4 && from.side == 4 ? change / 7.5 : change / 3;
+        best.light.error = std::hypot(next.light.error, left_by_change);
         if (!is_usable) break;
         // Two steps can agree by chance where a shadow's edge misses their points.
         const double expected = std::isfinite(from.footprint) ? from.footprint / (side * side)
                                                               : (next.highest - next.lowest) / (4 * side * side);
-        if (std::max(change / 3, expected) <= limits.footprint) return best;
-        if (side > 2 && change > 0.6 * change_before) break;  // not smooth at all
+        if (std::max(left_by_change, expected) <= limits.footprint) return best;
+        if (side > from.side && change > 0.6 * change_before) break;  // not smooth at all
         change_before = change;
-        double points = side * side, left = std::max(change / 3, expected);
+        double points = side * side, left = std::max(left_by_change, expected);
         for (; left > limits.footprint; left /= 4) points *= 4;
         if (may_trace && points * cost_of_point > cost_of_average_by_rays(limits.monte_carlo)) break;
     }

@@ -163,8 +163,12 @@ void set_ray(RTCRay& ray, const Vec3& origin, const Vec3& direction, double leng
 }  // namespace
 
 bool RayScene::is_occluded(const Vec3& origin, const Vec3& target, size_t monitor) const {
+    return is_occluded_until(1 - 1e-4, origin - state_->center, target - state_->center, monitor);
+}
+
+bool RayScene::is_occluded_until(double end, const Vec3& origin, const Vec3& target, size_t monitor) const {
     RTCRay ray;
-    set_ray(ray, origin - state_->center, target - origin, 1 - 1e-4, everything & ~(1u << monitor));
+    set_ray(ray, origin, target - origin, end, everything & ~(1u << monitor));
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     rtcOccluded1(state_->handle, &context, &ray);

@@ -61,7 +61,11 @@ class RayScene {
     /// light through; blended and transmissive materials block it.
     bool is_occluded(const Vec3& origin, const Vec3& target, size_t monitor) const;
 
-    /// Bit i: ray i of the packet meets something that is not monitor `monitor` (or anything, with no_monitor). Alpha-masked holes let light through.
+    /// The same for a ray that ends at `end` times the way, with places relative to center().
+    bool is_occluded_until(double end, const Vec3& origin, const Vec3& target, size_t monitor) const;
+
+    /// Bit i: ray i of the packet meets something that is not monitor `monitor` (or anything, with no_monitor).
+    /// Alpha-masked holes let light through.
     uint32_t occluded(const RayPacket& packet, size_t monitor) const;
 
     /// The nearest triangle between `origin` and `end` times the way to `target` (relative to center()) that is not

@@ -9,10 +9,9 @@
 namespace surimi {
 namespace {
 
-BakeSettings small(int size, int samples) {
+BakeSettings small(int size) {
     BakeSettings settings;
     settings.unwrap.width = settings.unwrap.height = size;
-    settings.gather.samples = samples;
     return settings;
 }
 
@@ -20,7 +19,7 @@ TEST(Furnace, WithNothingInTheWayEveryLitTexelIsExactlyOne_M3) {
     Scene scene;
     test::add_box(scene, "Room", Vec3(0), {4, 3, 5}, true);  // convex: it never blocks its own view
     test::add_monitor(scene, "Monitor_R", 0, {0, 0, -2.49}, {0.8, 0, 0}, {0, 0.45, 0});
-    const Bake result = bake(scene, small(128, 64), {});
+    const Bake result = bake(scene, small(128), {});
     size_t covered = 0;
     for (size_t i = 0; i < result.pages[0].map.visibility.pixels.size(); ++i) {
         EXPECT_EQ(result.pages[0].map.visibility.pixels[i], Vec3f(1)) << i;  // filled texels and unused channels too
@@ -35,7 +34,7 @@ TEST(ClosedBox, ARoomWithinARoomIsExactlyDarkOutside_M3) {
     test::add_box(scene, "Inner_inside", Vec3(0), Vec3(2), true);
     test::add_box(scene, "Inner_outside", Vec3(0), Vec3(2.02), false);
     test::add_monitor(scene, "Monitor_R", 0, {0, 0, -0.95}, {0.4, 0, 0}, {0, 0.3, 0});
-    const Bake result = bake(scene, small(256, 256), {});
+    const Bake result = bake(scene, small(256), {});
     const Texels texels = find_texels(scene, result.atlas);
     size_t dark = 0, lit = 0;
     for (const Texel& texel : texels.texels) {
@@ -58,7 +57,7 @@ TEST(ClosedBox, AMonitorDoesNotBlockItselfButBlocksTheOthers_M2) {
     const uint32_t floor = test::add_quad(scene, "Floor", {-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1});
     test::add_monitor(scene, "Far", 0, {0, 3, 0}, {0.5, 0, 0}, {0, 0, 0.5});
     test::add_monitor(scene, "Near", 1, {0, 2, 0}, {5, 0, 0}, {0, 0, 5});  // hides the far one wholly
-    const Bake result = bake(scene, small(64, 64), {});
+    const Bake result = bake(scene, small(64), {});
     size_t seen = 0;
     for (const Texel& texel : find_texels(scene, result.atlas).texels) {
         if (result.atlas.charts[texel.chart].surface != floor) continue;
@@ -71,9 +70,9 @@ TEST(ClosedBox, AMonitorDoesNotBlockItselfButBlocksTheOthers_M2) {
 TEST(Bake, TheSameBytesForOneThreadAndForMany) {
     const Scene scene = test::kanikama_room();
     set_thread_count(1);
-    const Bake one = bake(scene, small(128, 32), {});
+    const Bake one = bake(scene, small(128), {});
     set_thread_count(7);
-    const Bake many = bake(scene, small(128, 32), {});
+    const Bake many = bake(scene, small(128), {});
     set_thread_count(0);
     ASSERT_EQ(one.pages[0].map.visibility.pixels.size(), many.pages[0].map.visibility.pixels.size());
     EXPECT_EQ(one.pages[0].map.visibility.pixels, many.pages[0].map.visibility.pixels);
@@ -89,16 +88,16 @@ TEST(Bake, TheSameBytesForOneThreadAndForMany) {
 
 TEST(Bake, ColourAndIntensityDoNotChangeTheMap) {
     Scene scene = test::kanikama_room();
-    const Bake before = bake(scene, small(64, 16), {});
+    const Bake before = bake(scene, small(64), {});
     scene.monitors[0].radiance = {1000, 3, 0.01};
-    EXPECT_EQ(before.pages[0].map.visibility.pixels, bake(scene, small(64, 16), {}).pages[0].map.visibility.pixels);
+    EXPECT_EQ(before.pages[0].map.visibility.pixels, bake(scene, small(64), {}).pages[0].map.visibility.pixels);
 }
 
 TEST(Bake, StopsWhenCancelled) {
     const Scene scene = test::kanikama_room();
     Progress progress;
     progress.is_cancelled = [] { return true; };
-    EXPECT_THROW(bake(scene, small(128, 16), progress), Error);
+    EXPECT_THROW(bake(scene, small(128), progress), Error);
 }
 
 TEST(Bake, WarnsOfAMonitorThatFacesAWall) {
@@ -106,7 +105,7 @@ TEST(Bake, WarnsOfAMonitorThatFacesAWall) {
     test::add_box(scene, "Room", Vec3(0), Vec3(4), true);
     test::add_monitor(scene, "Flipped", 0, {0, 0, -1.95}, {-0.8, 0, 0}, {0, 0.45, 0});  // towards -z, 5 cm away
     test::add_monitor(scene, "Good", 1, {1.95, 0, 0}, {0, 0, 0.8}, {0, 0.45, 0});
-    const auto warnings = bake(scene, small(64, 1), {}).warnings;
+    const auto warnings = bake(scene, small(64), {}).warnings;
     ASSERT_EQ(warnings.size(), 1u);
     EXPECT_NE(warnings[0].find("Flipped shines towards -Z"), std::string::npos) << warnings[0];
 }

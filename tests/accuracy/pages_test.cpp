@@ -17,11 +17,11 @@
 namespace surimi {
 namespace {
 
-BakeSettings on_pages(int pages, int size, int samples) {
+BakeSettings on_pages(int pages, int size, const GatherSettings& gather = {}) {
     BakeSettings settings;
     settings.unwrap.width = settings.unwrap.height = size;
     settings.unwrap.atlases = pages;
-    settings.gather.samples = samples;
+    settings.gather = gather;
     return settings;
 }
 
@@ -35,8 +35,8 @@ Vec3 visibility_at(const Bake& bake, const TriangleRef& where, const Vec3& baryc
 
 TEST(BakePages, PointsHaveTheVisibilityThatOneMapGivesThem_M3) {
     const Scene scene = test::kanikama_room();
-    const Bake one = bake(scene, on_pages(1, 256, 32), {});
-    const Bake two = bake(scene, on_pages(2, 256, 32), {});
+    const Bake one = bake(scene, on_pages(1, 256), {});
+    const Bake two = bake(scene, on_pages(2, 256), {});
     ASSERT_EQ(two.pages.size(), 2u);
     Random random{5};
     double sum = 0;
@@ -53,17 +53,17 @@ TEST(BakePages, PointsHaveTheVisibilityThatOneMapGivesThem_M3) {
             count += 2;
         }
     }
-    // The standard error of 32 samples is about 0.02 in penumbras (M7), and penumbras are narrower than texels in
-    // places.
-    EXPECT_LT(sum / static_cast<double>(count), 0.02);
+    // Values are right to 0.004; between them maps of different texels interpolate, and penumbras are narrower than
+    // texels in places.
+    EXPECT_LT(sum / static_cast<double>(count), 0.01);
 }
 
 TEST(BakePages, TheSameBytesForOneThreadAndForMany) {
     const Scene scene = test::kanikama_room();
     set_thread_count(1);
-    const Bake one = bake(scene, on_pages(2, 96, 16), {});
+    const Bake one = bake(scene, on_pages(2, 96), {});
     set_thread_count(7);
-    const Bake many = bake(scene, on_pages(2, 96, 16), {});
+    const Bake many = bake(scene, on_pages(2, 96), {});
     set_thread_count(0);
     ASSERT_EQ(one.pages.size(), 2u);
     for (size_t p = 0; p < 2; ++p) EXPECT_EQ(one.pages[p].map.visibility.pixels, many.pages[p].map.visibility.pixels);
@@ -71,7 +71,7 @@ TEST(BakePages, TheSameBytesForOneThreadAndForMany) {
 
 TEST(BakePages, TexelsAreThoseOfTheSurfacesOnThePage) {
     const Scene scene = test::kanikama_room();
-    const Atlas atlas = unwrap(scene, on_pages(2, 96, 1).unwrap, {});
+    const Atlas atlas = unwrap(scene, on_pages(2, 96).unwrap, {});
     ASSERT_EQ(atlas.pages, 2);
     for (int page = 0; page < 2; ++page) {
         const Texels texels = find_texels(scene, atlas, page);
@@ -88,15 +88,21 @@ TEST(BakePages, PagesHaveRandomNumbersOfTheirOwn) {
     test::add_monitor(scene, "Monitor_R", 0, {0, 1, -2}, {1, 0, 0}, {0, 0.6, 0});
     test::add_box(scene, "Box", {0, 0.5, -1}, {0.5, 0.2, 0.1});
     const RayScene rays(scene);
+    const Silhouettes silhouettes = find_silhouettes(scene, rays);
     Atlas atlas = test::whole_map_atlas(scene, floor, 32);
-    const Gathered first = gather(scene, atlas, find_texels(scene, atlas, 0), rays, {}, 0, {.samples = 16}, {});
+    const auto gathered = [&](int page) {
+        const GatherSettings settings{.method = Method::monte_carlo, .samples = 16};
+        return gather(scene, atlas, find_texels(scene, atlas, page), rays, silhouettes, 0, settings, {});
+    };
+    const Gathered first = gathered(0);
     for (SurfaceUv& surface : atlas.surfaces) surface.page = 1;
-    const Gathered second = gather(scene, atlas, find_texels(scene, atlas, 1), rays, {}, 0, {.samples = 16}, {});
+    const Gathered second = gathered(1);
     ASSERT_EQ(first.estimates.size(), second.estimates.size());
     size_t penumbra = 0;
     size_t different = 0;
     for (size_t i = 0; i < first.estimates.size(); ++i) {
-        if (first.estimates[i].error == 0) continue;
+        const IrradianceEstimate& estimate = first.estimates[i];
+        if (!(estimate.shadowed > 0 && estimate.shadowed < estimate.unshadowed)) continue;
         ++penumbra;
         different += first.estimates[i].shadowed != second.estimates[i].shadowed;
     }
@@ -130,8 +136,9 @@ TEST(BakePages, ThePreviewOfTwoPagesIsThatOfOne) {
     std::filesystem::remove_all(folder);
     Scene scene = read_gltf(std::filesystem::path(SURIMI_SAMPLES) / "scenes/home-theater/home-theater.glb");
     find_monitors(scene, {});
+    const GatherSettings rays{.method = Method::monte_carlo, .samples = 16};  // quick, and good enough to look at
     const auto bake_to = [&](const std::string& name, int pages, int size) {
-        return write_bake(folder / name, scene, bake(scene, on_pages(pages, size, 16), {}), "{}").baked_glb;
+        return write_bake(folder / name, scene, bake(scene, on_pages(pages, size, rays), {}), "{}").baked_glb;
     };
     const Image<Vec3f> one = picture_of(bake_to("one", 1, 512), 1);
     const std::filesystem::path file = bake_to("two", 2, 512);

@@ -5,6 +5,8 @@
 
 #include <cmath>
 #include <set>
+#include <stdexcept>
+#include <tuple>
 
 #include "tests/support/random.h"
 #include "tests/support/scenes.h"
@@ -128,6 +130,95 @@ TEST(TexelSurface, AZeroAreaTriangleStillHasAPoint) {
         const TexelSurface surface(flat.scene, flat.atlas, texels, texel);
         EXPECT_EQ(surface.area(), 0);
         EXPECT_TRUE(is_finite(surface.sample(0.3, 0.9).position));
+    }
+}
+
+TEST(TexelSurface, SharesOfPiecesAreThoseOfTheirAreas_M8) {
+    Flat flat;
+    flat.add({1, 1}, {2, 1}, {1, 2});  // half of texel (1, 1), twice
+    flat.add({2, 1}, {2, 2}, {1, 2});
+    flat.add({4, 4}, {4.5, 4}, {4, 4.5});  // an eighth of texel (4, 4), alone
+    flat.add({5, 0}, {8, 0}, {5, 3});      // all of texel (5, 0) and more
+    const Texels texels = find_texels(flat.scene, flat.atlas);
+    const auto surface_at = [&](uint32_t index) {
+        for (const Texel& texel : texels.texels)
+            if (texel.index == index) return TexelSurface(flat.scene, flat.atlas, texels, texel);
+        throw std::out_of_range("no such texel");
+    };
+    for (const auto& [index, pieces, area] :
+         {std::tuple<uint32_t, size_t, double>{9, 2, 1}, {36, 1, 0.125}, {5, 1, 1}}) {
+        const TexelSurface surface = surface_at(index);
+        ASSERT_EQ(surface.pieces().size(), pieces) << index;
+        EXPECT_NEAR(surface.area(), area, 1e-12);
+        double sum = 0;
+        for (const TexelSurface::Piece& piece : surface.pieces()) {
+            EXPECT_NEAR(surface.share_of(piece), 1.0 / static_cast<double>(pieces), 1e-12);
+            sum += surface.share_of(piece);
+        }
+        EXPECT_NEAR(sum, 1, 1e-15);
+    }
+    EXPECT_TRUE(surface_at(5).pieces()[0].is_square);
+    EXPECT_FALSE(surface_at(36).pieces()[0].is_square);
+}
+
+TEST(TexelSurface, CenterIsTheMiddleOfAreaInOnePlane) {
+    Flat flat;
+    flat.add({1, 1}, {2, 1}, {1, 1.5});
+    flat.add({2, 1}, {2, 2}, {1, 1.5});
+    const Texels texels = find_texels(flat.scene, flat.atlas);
+    const TexelSurface surface(flat.scene, flat.atlas, texels, texels.texels[0]);
+    Vec3 sum(0);
+    constexpr int side = 400;
+    for (int i = 0; i < side * side; ++i)
+        sum += surface.sample((i % side + 0.5) / side, (i / side + 0.5) / side).position / double{side * side};
+    EXPECT_LT(glm::length(surface.center().position - sum), 1e-3);
+    EXPECT_EQ(surface.center().normal, Vec3(0, 0, 1));
+}
+
+TEST(TexelSurface, CenterOfABentTexelLiesOnItsSurface) {
+    Flat flat;
+    flat.add({1, 1}, {2, 1}, {1, 2});
+    flat.add({2, 1}, {2, 2}, {1, 2});
+    flat.scene.surfaces[0].positions[4].z = 1;  // the second triangle is folded up
+    const Texels texels = find_texels(flat.scene, flat.atlas);
+    const TexelSurface surface(flat.scene, flat.atlas, texels, texels.texels[0]);
+    const SurfacePoint center = surface.center();
+    const SurfacePoint there = surface_point(flat.scene, center.triangle, center.barycentric);
+    EXPECT_LT(glm::length(center.position - there.position), 1e-12);
+    EXPECT_EQ(center.geometric_normal, there.geometric_normal);
+}
+
+TEST(TexelSurface, CornersHoldAllOfIt) {
+    Random random{4};
+    for (int i = 0; i < 50; ++i) {
+        Flat flat;
+        const auto p = [&] { return Vec2(8 * random.next(), 8 * random.next()); };
+        const Vec2 a = p(), b = p(), c = p();
+        flat.add(a, b, c);
+        const Texels texels = find_texels(flat.scene, flat.atlas);
+        for (const Texel& texel : texels.texels) {
+            const TexelSurface surface(flat.scene, flat.atlas, texels, texel);
+            Vec3 low(INFINITY), high(-INFINITY);
+            size_t count = 0;
+            surface.for_each_corner([&](const SurfacePoint& corner) {
+                low = glm::min(low, corner.position);
+                high = glm::max(high, corner.position);
+                ++count;
+            });
+            EXPECT_GE(count, 3 * surface.pieces().size());
+            const Vec2 at(texel.index % 8, texel.index / 8);
+            if (surface.area() > 0) {
+                EXPECT_GE(low.x, at.x - 1e-5);
+                EXPECT_GE(low.y, at.y - 1e-5);
+                EXPECT_LE(high.x, at.x + 1 + 1e-5);
+                EXPECT_LE(high.y, at.y + 1 + 1e-5);
+            }
+            for (int s = 0; s < 20; ++s) {
+                const Vec3 q = surface.sample(random.next(), random.next()).position;
+                EXPECT_TRUE(glm::all(glm::greaterThanEqual(q, low - 1e-9)) &&
+                            glm::all(glm::lessThanEqual(q, high + 1e-9)));
+            }
+        }
     }
 }
 
