@@ -28,8 +28,9 @@ class Clock {
 
 double unshadowed_at(const MonitorSetup& setup, const SurfacePoint& point) {
     double sum = 0;
+    const Vec3 position = point.position - setup.rays.center();
     for (const Panel& panel : setup.panels)
-        sum += irradiance_of_polygon<double>(panel.places, point.position - setup.rays.center(), point.normal);
+        if (panel.is_before(position)) sum += irradiance_of_polygon<double>(panel.places, position, point.normal);
     return sum;
 }
 
@@ -160,7 +161,7 @@ class BlockLighter {
         if (center.has_failed || center.is_dear || block_.is_curved[i] || block_.is_pierced[i] || center.has_near ||
             center.is_self_hidden)
             return refine();
-        if (error > tolerances(setup_.settings).footprint / 2) return refine();
+        if (error > tolerances(setup_.settings).footprint) return refine();
         TexelLight texel{center, 1};
         texel.light.error = std::hypot(center.error, error);
         texel.is_by_center = true;

@@ -38,7 +38,7 @@ Vec2 second_differences(const TileGrid& grid, std::span<const double> values, in
 }
 
 double footprint_error(const Vec2& differences) {
-    return (differences.x + differences.y) / 24;
+    return (differences.x + differences.y) / 10;
 }
 
 }  // namespace surimi

@@ -18,8 +18,8 @@ using TileGrid = std::array<int16_t, size_t{tile_size} * tile_size>;
 /// so that nothing is known. Values that are not finite count as missing.
 Vec2 second_differences(const TileGrid& grid, std::span<const double> values, int x, int y);
 
-/// What the average over a texel differs from the value at its centre, if the value is as smooth as its second
-/// differences say: a parabola's average is off by a 24th of them (M56).
+/// What the average over a texel may differ from the value at its centre, by the second differences (M56): a parabola's
+/// is off by a 24th of them, a kink's by an eighth.
 double footprint_error(const Vec2& second_differences);
 
 }  // namespace surimi

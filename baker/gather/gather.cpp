@@ -96,7 +96,7 @@ void light_rims_again(Gathering& g, const Progress& progress) {
         const IrradianceEstimate& e = g.lit[i].estimate;
         visibility[i] = e.unshadowed > 0 ? e.shadowed / e.unshadowed : std::numeric_limits<float>::quiet_NaN();
     }
-    const double limit = tolerances(g.setup.settings).footprint / 2;
+    const double limit = tolerances(g.setup.settings).footprint;
     const auto width = static_cast<uint32_t>(g.texels.width);
     const auto is_rim = [&](uint32_t index) {
         const uint32_t x = index % width % tile_size, y = index / width % tile_size;

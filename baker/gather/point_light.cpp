@@ -117,6 +117,7 @@ PointLight light_at(const MonitorSetup& setup, const BlockSight& sight, const Su
     for (size_t i = 0; i < sight.count && !light.is_dear; ++i) {
         const PanelSight& panel_sight = sight.panels[i];
         const Panel& panel = *panel_sight.panel;
+        if (!panel.is_before(position)) continue;
         const double unshadowed = irradiance_of_polygon<double>(panel.places, position, point.normal);
         if (!(unshadowed > 0)) continue;
         light.unshadowed += unshadowed;
