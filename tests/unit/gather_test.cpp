@@ -159,7 +159,7 @@ void mask(Scene& scene, size_t surface, double alpha) {
 TEST(Gather, CutoutsGoToRaysOnlyWhereTheyAreInTheWay) {
     Scene solid = floor_under_monitor();
     // Close above the floor's left, so that most of the floor is free of it.
-    test::add_quad(solid, "Leaf", {-1.9, 0.1, 1.9}, {-1.5, 0.1, 1.9}, {-1.5, 0.1, 1.5}, {-1.9, 0.1, 1.5});
+    test::add_quad(solid, "Leaf", {-1.7, 0.1, 1.7}, {-1.3, 0.1, 1.7}, {-1.3, 0.1, 1.3}, {-1.7, 0.1, 1.3});
     Scene masked = solid, hole = solid;
     mask(masked, 2, 1);
     mask(hole, 2, 0.2);
@@ -173,6 +173,15 @@ TEST(Gather, CutoutsGoToRaysOnlyWhereTheyAreInTheWay) {
     EXPECT_LT(largest_difference(opaque, as_masked), 0.02);
     EXPECT_GT(largest_difference(opaque, open), 0.5);
     for (const IrradianceEstimate& e : open.estimates) EXPECT_EQ(e.shadowed, e.unshadowed);
+}
+
+TEST(Gather, ShadowsThatEndBetweenTheLastCentreAndTheBorderOfAChartAreSeen) {
+    // Under the leaf lie the centres of the corner's texels, but not all of the corner: no centre tells.
+    Scene scene = floor_under_monitor();
+    test::add_quad(scene, "Leaf", {-1.9, 0.1, 1.9}, {-1.5, 0.1, 1.9}, {-1.5, 0.1, 1.5}, {-1.9, 0.1, 1.5});
+    const Map map{scene};
+    const GatherSettings many_rays{.method = Method::monte_carlo, .samples = 1 << 14};
+    EXPECT_LT(largest_difference(map.gathered(), map.gathered(many_rays)), 0.006);
 }
 
 TEST(Gather, TwoSidedMonitorsLightBothSides) {
