@@ -155,7 +155,7 @@ class BlockLighter {
             return refined(setup_, work_.sight, surface, {center, error, side}, key(i), work_.point);
         };
         if (!(center.unshadowed > 0)) return is_partly_lit(setup_, surface) ? refine() : TexelLight{center, 1};
-        const bool may_trace = !setup_.settings.is_exact && setup_.settings.method != Method::split;
+        const bool may_trace = setup_.settings.method != Method::split;
         if (may_trace && (block_.is_pierced[i] || center.is_self_hidden))
             return by_rays(setup_, surface, center.unshadowed, key(i));
         if (center.has_failed || center.is_dear || block_.is_curved[i] || block_.is_pierced[i] || center.has_near ||

@@ -8,7 +8,8 @@ namespace surimi {
 
 Tolerances tolerances(const GatherSettings& settings) {
     Tolerances result;
-    const double error = settings.error;
+    // With exact points only the footprint is estimated, to a quarter.
+    const double error = settings.is_exact ? settings.error / 4 : settings.error;
     result.lines = 0.75 * error;
     result.footprint = 0.25 * error;
     // 99.9 % of all texels within the error, when a tenth of them is left to rays.
@@ -19,16 +20,16 @@ Tolerances tolerances(const GatherSettings& settings) {
 }
 
 double cost_of_projecting(size_t candidates) {
-    return 200 + 8 * static_cast<double>(candidates);
+    return 200 + 14 * static_cast<double>(candidates);
 }
 
 double cost_of_split(size_t segments) {
     const auto k = static_cast<double>(segments);
-    return 500 + 400 * k + 3 * k * k;
+    return 1000 + 400 * k + 3 * k * k;
 }
 
 double cost_of_scan(size_t segments, int lines) {
-    return 1000 + 30.0 * lines + (10 + 0.05 * lines) * static_cast<double>(segments);
+    return 3000 + 80.0 * lines + (16 + 0.1 * lines) * static_cast<double>(segments);
 }
 
 double cost_of_monte_carlo(double standard_error) {

@@ -137,7 +137,7 @@ TexelLight by_rays(const MonitorSetup& setup, const TexelSurface& surface, doubl
 TexelLight refined(const MonitorSetup& setup, const BlockSight& sight, const TexelSurface& surface,
                    const Beginning& from, uint64_t key, PointWorkspace& work) {
     const Tolerances limits = tolerances(setup.settings);
-    const bool may_trace = !setup.settings.is_exact && setup.settings.method != Method::split;
+    const bool may_trace = setup.settings.method != Method::split;
     const double cost_of_point =
         cost_of_projecting(sight.candidates()) + cost_of_scan(work.segments.count, limits.first_lines);
     TexelLight best{from.center, 1};
