@@ -135,9 +135,10 @@ class BlockLighter {
                 const int member = block_.grid[y * tile_size + x];
                 if (member < 0) continue;
                 const auto i = static_cast<size_t>(member);
+                const int px = static_cast<int>(x), py = static_cast<int>(y);
                 const double error = footprints_.empty()
-                                         ? footprint_error(second_differences(block_.grid, work_.visibilities,
-                                                                              static_cast<int>(x), static_cast<int>(y)))
+                                         ? footprint_error(second_differences(block_.grid, work_.visibilities, px, py),
+                                                           diagonal_difference(block_.grid, work_.visibilities, px, py))
                                          : footprints_[i];
                 write(i, finish(i, error));
                 statistics_.methods[static_cast<size_t>(texels_[i].estimate.method)].seconds += half;

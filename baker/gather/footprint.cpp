@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "baker/gather/footprint.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -39,6 +40,22 @@ Vec2 second_differences(const TileGrid& grid, std::span<const double> values, in
 
 double footprint_error(const Vec2& differences) {
     return (differences.x + differences.y) / 10;
+}
+
+double diagonal_difference(const TileGrid& grid, std::span<const double> values, int x, int y) {
+    const auto center = value_at(grid, values, {x, y});
+    double largest = 0;
+    for (const glm::ivec2& step : {glm::ivec2(1, 1), glm::ivec2(1, -1)}) {
+        const auto before = value_at(grid, values, glm::ivec2(x, y) - step);
+        const auto after = value_at(grid, values, glm::ivec2(x, y) + step);
+        if (center && before && after) largest = std::max(largest, std::abs(*before - 2 * *center + *after));
+    }
+    return largest;
+}
+
+double footprint_error(const Vec2& second_differences, double diagonal_difference) {
+    // A diagonal's has both axes' in it where light is smooth.
+    return std::max(footprint_error(second_differences), diagonal_difference / 20);
 }
 
 }  // namespace surimi

@@ -22,4 +22,11 @@ Vec2 second_differences(const TileGrid& grid, std::span<const double> values, in
 /// is off by a 24th of them, a kink's by an eighth.
 double footprint_error(const Vec2& second_differences);
 
+/// The larger of the second differences along the two diagonals, of those that the tile has both ends of: where only
+/// the corner of a shadow falls between the centres, the axes show nothing.
+double diagonal_difference(const TileGrid& grid, std::span<const double> values, int x, int y);
+
+/// The same as footprint_error, by both.
+double footprint_error(const Vec2& second_differences, double diagonal_difference);
+
 }  // namespace surimi

@@ -92,18 +92,17 @@ void light_members(Gathering& g, std::span<const uint32_t> members, std::span<co
     for (size_t i = 0; i < members.size(); ++i) g.lit[members[i]] = texels[i];
 }
 
-/// footprint_error of a texel by its neighbours on both sides, 0 where one is missing or unlit.
+/// footprint_error of a texel by its neighbours on both sides; those that are missing or unlit say nothing.
 double footprint_across_tiles(const Gathering& g, const std::vector<float>& visibility, uint32_t number) {
-    Vec2 differences(0);
-    for (int k = 0; k < 2; ++k) {
-        const uint32_t before = mate_of(g, number, -axes[static_cast<size_t>(k)]);
-        const uint32_t after = mate_of(g, number, axes[static_cast<size_t>(k)]);
-        if (before == Gathering::nobody || after == Gathering::nobody) continue;
-        const double second =
-            std::abs(static_cast<double>(visibility[before] - 2 * visibility[number] + visibility[after]));
-        if (second >= 0) differences[k] = second;  // not NaN, which an unlit neighbour leaves
-    }
-    return footprint_error(differences);
+    const auto difference = [&](const glm::ivec2& step) {
+        const uint32_t before = mate_of(g, number, -step), after = mate_of(g, number, step);
+        if (before == Gathering::nobody || after == Gathering::nobody) return 0.0;
+        const auto second =
+            static_cast<double>(std::abs(visibility[before] - 2 * visibility[number] + visibility[after]));
+        return second >= 0 ? second : 0.0;  // NaN: an unlit neighbour
+    };
+    return footprint_error({difference(axes[0]), difference(axes[1])},
+                           std::max(difference({1, 1}), difference({1, -1})));
 }
 
 /// Texels at the rim of a tile that were judged by their centre, without the neighbour in the next tile.
