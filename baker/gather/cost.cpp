@@ -15,7 +15,7 @@ Tolerances tolerances(const GatherSettings& settings) {
     // 99.9 % of all texels within the error, when a tenth of them is left to rays.
     result.monte_carlo = error / 2.6;
     // Features between two lines go unseen: (2.8 / lines)^2 / 4 of the panel's square at most.
-    result.first_lines = error >= 0.015 ? 16 : error >= 0.003 ? 32 : 64;
+    result.first_lines = error >= 0.015 ? 16 : error >= 0.003 ? 40 : 64;
     return result;
 }
 
