@@ -12,6 +12,7 @@
 #include "baker/cli/existing_uv.h"
 #include "baker/cli/options.h"
 #include "baker/cli/progress.h"
+#include "baker/cli/time_budget.h"
 #include "baker/write/output.h"
 #include "runtime/base/error.h"
 
@@ -34,7 +35,7 @@ void print_summary(const Scene& scene, const Bake& bake) {
 }
 
 int bake_scene(const Given& given, const std::filesystem::path& out) {
-    const Config config = effective_config(given);
+    Config config = effective_config(given);
     if (given.print_config) {
         fmt::print("{}", to_toml(config));
         return 0;
@@ -42,8 +43,11 @@ int bake_scene(const Given& given, const std::filesystem::path& out) {
     set_thread_count(config.threads);
     const Scene scene = load_scene(given, config);
     Bake result;
-    with_picture_of_faults(scene, config.bake.unwrap, out,
-                           [&] { result = bake(scene, config.bake, make_progress(given.progress, given.quiet)); });
+    with_picture_of_faults(scene, config.bake.unwrap, out, [&] {
+        const Progress progress = make_progress(given.progress, given.quiet);
+        if (config.seconds > 0) spend(scene, config, progress);
+        result = bake(scene, config.bake, progress);
+    });
     const OutputPaths paths = write_bake(out, scene, result, settings_json(config));
     if (!given.quiet) print_summary(scene, result);
     if (given.json) {

@@ -7,7 +7,6 @@
 
 #include "baker/gather/texel_light.h"
 #include "runtime/base/random.h"
-#include "runtime/ltc/polygon.h"
 
 namespace surimi {
 namespace {
@@ -28,9 +27,8 @@ class Clock {
 
 double unshadowed_at(const MonitorSetup& setup, const SurfacePoint& point) {
     double sum = 0;
-    const Vec3 position = point.position - setup.rays.center();
     for (const Panel& panel : setup.panels)
-        if (panel.is_before(position)) sum += irradiance_of_polygon<double>(panel.places, position, point.normal);
+        sum += unshadowed_from(panel, point.position - setup.rays.center(), point.normal);
     return sum;
 }
 
@@ -155,11 +153,11 @@ class BlockLighter {
             return refined(setup_, work_.sight, surface, {center, error, side}, key(i), work_.point);
         };
         if (!(center.unshadowed > 0)) return is_partly_lit(setup_, surface) ? refine() : TexelLight{center, 1};
-        const bool may_trace = setup_.settings.method != Method::split;
+        const bool may_trace = setup_.settings.method == Method::automatic;
         if (may_trace && (block_.is_pierced[i] || center.is_self_hidden))
             return by_rays(setup_, surface, center.unshadowed, key(i));
         if (center.has_failed || center.is_dear || block_.is_curved[i] || block_.is_pierced[i] || center.has_near ||
-            center.is_self_hidden)
+            center.is_self_hidden || block_.is_border[i])
             return refine();
         if (error > tolerances(setup_.settings).footprint) return refine();
         TexelLight texel{center, 1};

@@ -20,6 +20,7 @@ struct BlockSurfaces {
     std::vector<uint64_t> keys;    ///< of the texels' random numbers, without the monitor
     std::vector<char> is_curved;   ///< one point says little about such a texel
     std::vector<char> is_pierced;  ///< something stands on it: part of it may be dark
+    std::vector<char> is_border;   ///< no texel of its chart on some side: nothing tells what happens there
     TileGrid grid{};
     std::array<Vec3, 8> corners;  ///< of a box around all places that rays start from, relative to RayScene::center()
     double texel_size = 0;        ///< metres, root of the largest texel's area

@@ -2,6 +2,7 @@
 #include "baker/gather/gather.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -61,32 +62,48 @@ struct Gathering {
     static constexpr size_t grain = 4;  // blocks; a few milliseconds
 };
 
+/// Number of the texel of the same chart `step` further on the map, or `nobody`.
+uint32_t mate_of(const Gathering& g, uint32_t number, const glm::ivec2& step) {
+    const Texel& texel = g.texels.texels[number];
+    const int width = g.texels.width, height = g.texels.height;
+    const int x = static_cast<int>(texel.index) % width + step.x, y = static_cast<int>(texel.index) / width + step.y;
+    if (x < 0 || y < 0 || x >= width || y >= height) return Gathering::nobody;
+    const uint32_t other = g.number_at[static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)];
+    const bool is_mate = other != Gathering::nobody && g.texels.texels[other].chart == texel.chart;
+    return is_mate ? other : Gathering::nobody;
+}
+
+constexpr std::array<glm::ivec2, 2> axes = {glm::ivec2(1, 0), glm::ivec2(0, 1)};
+
+bool is_at_border(const Gathering& g, uint32_t number) {
+    return std::ranges::any_of(axes, [&](const glm::ivec2& axis) {
+        return mate_of(g, number, axis) == Gathering::nobody || mate_of(g, number, -axis) == Gathering::nobody;
+    });
+}
+
 /// Lights some texels of one block; `footprints` as in light_block.
 void light_members(Gathering& g, std::span<const uint32_t> members, std::span<const double> footprints,
                    GatherStatistics& statistics) {
     thread_local BlockWorkspace work;
     std::vector<LitTexel> texels(members.size());
-    const BlockSurfaces block = block_surfaces(g.setup.scene, g.atlas, g.texels, g.setup.rays, members);
+    BlockSurfaces block = block_surfaces(g.setup.scene, g.atlas, g.texels, g.setup.rays, members);
+    for (const uint32_t number : members) block.is_border.push_back(is_at_border(g, number));
     light_block(g.setup, block, footprints, work, texels, statistics);
     for (size_t i = 0; i < members.size(); ++i) g.lit[members[i]] = texels[i];
 }
 
-/// footprint_error of a texel by its neighbours on both sides, 0 where one is missing, of another chart or unlit.
+/// footprint_error of a texel by its neighbours on both sides, 0 where one is missing or unlit.
 double footprint_across_tiles(const Gathering& g, const std::vector<float>& visibility, uint32_t number) {
-    const Texel& texel = g.texels.texels[number];
-    const int width = g.texels.width, height = g.texels.height;
-    const int x = static_cast<int>(texel.index) % width, y = static_cast<int>(texel.index) / width;
-    const auto value = [&](int px, int py) -> double {
-        if (px < 0 || py < 0 || px >= width || py >= height) return NAN;
-        const uint32_t other = g.number_at[static_cast<size_t>(py * width + px)];
-        const bool is_mate = other != Gathering::nobody && g.texels.texels[other].chart == texel.chart;
-        return is_mate ? static_cast<double>(visibility[other]) : NAN;
-    };
-    const auto difference = [&](int dx, int dy) {
-        const double second = std::abs(value(x - dx, y - dy) - 2 * value(x, y) + value(x + dx, y + dy));
-        return second >= 0 ? second : 0;  // NaN: not known
-    };
-    return footprint_error({difference(1, 0), difference(0, 1)});
+    Vec2 differences(0);
+    for (int k = 0; k < 2; ++k) {
+        const uint32_t before = mate_of(g, number, -axes[static_cast<size_t>(k)]);
+        const uint32_t after = mate_of(g, number, axes[static_cast<size_t>(k)]);
+        if (before == Gathering::nobody || after == Gathering::nobody) continue;
+        const double second =
+            std::abs(static_cast<double>(visibility[before] - 2 * visibility[number] + visibility[after]));
+        if (second >= 0) differences[k] = second;  // not NaN, which an unlit neighbour leaves
+    }
+    return footprint_error(differences);
 }
 
 /// Texels at the rim of a tile that were judged by their centre, without the neighbour in the next tile.

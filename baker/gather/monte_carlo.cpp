@@ -154,10 +154,10 @@ MonteCarloEstimate estimate(const Samples& samples) {
     result.is_lit = true;
     const double share = samples.free == 0 ? 1 : std::min(1.0, blocked / all);
     result.visibility = 1 - share;
-    // Nets eight times as large have a smaller variance than independent samples would have; the next step of eight is
-    // taken to gain as much, within what can be expected.
+    // Nets eight times as large have a smaller variance than independent samples would have. The next step of eight
+    // gains as much again; half of that (of its logarithm) is believed, since eight nets say little.
     const double fine = variance_of_runs(samples, share, 1), coarse = variance_of_runs(samples, share, parts_of_eighth);
-    const double gain = fine > 0 ? std::clamp(coarse / fine, least_gain, 1.0) : 1;
+    const double gain = fine > 0 ? std::sqrt(std::clamp(coarse / fine, least_gain, 1.0)) : 1;
     // What no sample has met may be there, about as much as a sample stands for where most light comes from.
     const double unseen = samples.squares / all;
     result.error = std::min(1.0, std::sqrt(coarse * gain + unseen * unseen) / all);

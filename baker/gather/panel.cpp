@@ -71,6 +71,12 @@ double end_of_rays(const Panel& panel, const Vec3& origin) {
     return height > panel.clearance ? 1 - panel.clearance / height : 0;
 }
 
+double unshadowed_from(const Panel& panel, const Vec3& position, const Vec3& normal) {
+    constexpr double in_plane = 1e-8;  // of the clearance: 1e-12 of the panel's diameter
+    if (!(panel.height(position) > in_plane * panel.clearance)) return 0;
+    return irradiance_of_polygon<double>(panel.places, position, normal);
+}
+
 void cut(std::span<const Vec2> polygon, const Vec3& line, std::vector<Vec2>& part) {
     part.clear();
     const auto side = [&](const Vec2& p) { return p.x * line.x + p.y * line.y + line.z; };

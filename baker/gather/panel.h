@@ -23,9 +23,6 @@ struct Panel {
     Vec3 at(const Vec2& place) const { return center + place.x * axis_s + place.y * axis_t; }
     /// Height of a point over the plane, metres.
     double height(const Vec3& point) const { return glm::dot(normal, point - center); }
-    /// False behind the plane and in it: half the clearance, which holds the lift of rays off the wall that a screen is
-    /// glued to. What such points get is rounding.
-    bool is_before(const Vec3& point) const { return height(point) > 0.5 * clearance; }
 };
 
 /// The panels of a monitor, and after each its back where the monitor is two-sided. The clearance is 1e-4 of the
@@ -36,6 +33,9 @@ std::vector<Panel> panels_of(const Monitor& monitor, const RayScene& rays);
 /// The share of the way from `origin` to any point of the panel at which it comes within the clearance; 0 when the
 /// origin is closer than that or behind the panel. Rays end there.
 double end_of_rays(const Panel& panel, const Vec3& origin);
+
+/// E (M1) of the panel at unit radiance. 0 behind the panel and, to rounding, in its plane.
+double unshadowed_from(const Panel& panel, const Vec3& position, const Vec3& normal);
 
 /// A point that rays start from and the part of a panel that lights it.
 struct PanelView {

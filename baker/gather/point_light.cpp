@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "runtime/base/random.h"
-#include "runtime/ltc/polygon.h"
 
 namespace surimi {
 namespace {
@@ -117,8 +116,7 @@ PointLight light_at(const MonitorSetup& setup, const BlockSight& sight, const Su
     for (size_t i = 0; i < sight.count && !light.is_dear; ++i) {
         const PanelSight& panel_sight = sight.panels[i];
         const Panel& panel = *panel_sight.panel;
-        if (!panel.is_before(position)) continue;
-        const double unshadowed = irradiance_of_polygon<double>(panel.places, position, point.normal);
+        const double unshadowed = unshadowed_from(panel, position, point.normal);
         if (!(unshadowed > 0)) continue;
         light.unshadowed += unshadowed;
         light.method = std::max(light.method, TexelMethod::certificate);

@@ -104,7 +104,7 @@ TexelLight average_over_cells(const MonitorSetup& setup, const BlockSight& sight
     }
     for (const TexelSurface::Piece& piece : surface.pieces()) {
         const double share = surface.share_of(piece);
-        const int cells = std::max(1, static_cast<int>(std::lround(side * std::sqrt(share))));
+        const int cells = std::max(1, static_cast<int>(std::ceil(side * std::sqrt(share) - 0.3)));
         for_each_cell(cells, [&](Vec2 cell) {
             if (!piece.is_square) {  // evenly by area (M8); one cell has its middle at the centroid
                 cell.x = cells == 1 ? 2.0 / 3 : std::sqrt(cell.x);
@@ -137,7 +137,7 @@ TexelLight by_rays(const MonitorSetup& setup, const TexelSurface& surface, doubl
 TexelLight refined(const MonitorSetup& setup, const BlockSight& sight, const TexelSurface& surface,
                    const Beginning& from, uint64_t key, PointWorkspace& work) {
     const Tolerances limits = tolerances(setup.settings);
-    const bool may_trace = setup.settings.method != Method::split;
+    const bool may_trace = setup.settings.method == Method::automatic;
     const double cost_of_point =
         cost_of_projecting(sight.candidates()) + cost_of_scan(work.segments.count, limits.first_lines);
     TexelLight best{from.center, 1};

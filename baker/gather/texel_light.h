@@ -29,8 +29,8 @@ struct Beginning {
 };
 
 /// Refines from the value at the centre: four points, sixteen and so on, until two steps agree or rays would be
-/// cheaper, because shadows are sharper than that or silhouettes too many. With Method::split by more and more points
-/// in place of rays.
+/// cheaper, because shadows are sharper than that or silhouettes too many. With a method that settings force by more
+/// and more points in place of rays.
 TexelLight refined(const MonitorSetup& setup, const BlockSight& sight, const TexelSurface& surface,
                    const Beginning& from, uint64_t key, PointWorkspace& work);
 

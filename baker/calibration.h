@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// A small part of the work, done and timed, so that the whole can be foretold.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "baker/gather/gather.h"
+#include "baker/preparation.h"
+
+namespace surimi {
+
+/// Some tiles of a page, all their texels: about one of every 40 tiles, at least 192, spread over the map in Morton
+/// order with a random one in every stretch. Depends on texels and seed alone.
+Texels sample_tiles(const Texels& texels, uint64_t seed);
+
+/// What gather() will do for one monitor on all pages, from sampled tiles. All but the seconds is the same in every
+/// run.
+struct Calibration {
+    struct OfMethod {
+        double texels = 0;   ///< of the whole map
+        double rays = 0;     ///< of the whole map
+        double seconds = 0;  ///< of CPU, of the whole map
+    };
+    std::array<OfMethod, texel_method_count> methods;  ///< by TexelMethod
+    size_t texels = 0;                                 ///< of all pages
+    size_t sampled = 0;                                ///< of them
+    double lit = 0;                                    ///< texels with light, of all pages
+    double rays = 0;
+    double failed_checks = 0;
+    double rms_error = 0;      ///< of the estimated errors of lit texels
+    double share_above = 0;    ///< of lit texels, whose estimated error is above the one asked for
+    double fixed_seconds = 0;  ///< of wall time that the calls cost whatever the texels
+    double seconds = 0;        ///< of wall time, the fixed ones included
+    double spent = 0;          ///< seconds of wall time that finding out took
+};
+
+Calibration calibrate(const Scene& scene, const Preparation& preparation, size_t monitor,
+                      const GatherSettings& settings, const Progress& progress);
+
+/// Seconds of wall time to make visibility of estimates and fill what has none, all pages, one monitor.
+double calibrate_fill(const Preparation& preparation);
+
+/// Seconds for one audited texel of the first page that has light in its sample; 0 where none has.
+double calibrate_audit(const Scene& scene, const Preparation& preparation, size_t monitor,
+                       const GatherSettings& settings);
+
+}  // namespace surimi

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a scene calls for, before it is baked: which monitor reaches what, which stages run and why, and what they will
+// cost.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "baker/bake.h"
+#include "baker/calibration.h"
+#include "baker/preparation.h"
+#include "baker/reach.h"
+
+namespace surimi {
+
+/// A stage of a bake by the name that it has there, or a part of one.
+struct PlannedStage {
+    std::string stage;
+    bool runs = true;
+    std::string why;       ///< it runs, or does not
+    double seconds = 0;    ///< of wall time, foretold for this machine as it is now
+    double rays = 0;       ///< foretold
+    bool is_part = false;  ///< of the stage before; has no seconds of its own
+};
+
+struct PlannedMonitor {
+    std::vector<Reach> reach;  ///< by surface
+    BlockCounts blocks;        ///< of all surfaces
+    Calibration calibration;
+};
+
+/// Bytes. All but those of Embree and the process follow from the scene.
+struct PlannedMemory {
+    size_t map = 0;          ///< maps and the evidence behind them
+    size_t texels = 0;       ///< which triangles each touches
+    size_t silhouettes = 0;  ///< edges, planes, tree
+    size_t embree = 0;       ///< measured
+    size_t peak = 0;         ///< of the process: measured so far, and what is still to come
+};
+
+struct Plan {
+    int width = 0, height = 0, pages = 1;
+    double texels_per_metre = 0;
+    size_t texels = 0;                     ///< that triangles touch, of all pages
+    std::vector<PlannedMonitor> monitors;  ///< by index in Scene::monitors
+    std::vector<PlannedStage> stages;      ///< in the order in which they run
+    PlannedMemory memory;
+    std::vector<std::string> warnings;  ///< as the bake will give them
+
+    double seconds() const;
+    double rays() const;
+};
+
+/// The scene must outlive neither. Deterministic but for seconds and for what memory is measured. Throws what unwrap()
+/// throws, and Error(interrupted).
+Plan plan(const Scene& scene, const BakeSettings& settings, const Progress& progress);
+
+}  // namespace surimi
