@@ -72,8 +72,7 @@ double end_of_rays(const Panel& panel, const Vec3& origin) {
 }
 
 double unshadowed_from(const Panel& panel, const Vec3& position, const Vec3& normal) {
-    constexpr double in_plane = 1e-8;  // of the clearance: 1e-12 of the panel's diameter
-    if (!(panel.height(position) > in_plane * panel.clearance)) return 0;
+    if (!panel.is_before(position)) return 0;
     return irradiance_of_polygon<double>(panel.places, position, normal);
 }
 
