@@ -106,7 +106,7 @@ size_t look_from(BlockSight& sight, const MonitorSetup& setup, std::span<const V
     size_t rays = 0;
     for (size_t i = 0; i < setup.panels.size(); ++i) {
         const Panel& panel = setup.panels[i];
-        if (std::ranges::all_of(corners, [&](const Vec3& corner) { return panel.height(corner) <= 0; })) continue;
+        if (std::ranges::all_of(corners, [&](const Vec3& corner) { return !panel.is_before(corner); })) continue;
         if (sight.panels.size() == sight.count) sight.panels.emplace_back();
         PanelSight& panel_sight = sight.panels[sight.count++];
         panel_sight.panel = &panel;

@@ -23,6 +23,9 @@ struct Panel {
     Vec3 at(const Vec2& place) const { return center + place.x * axis_s + place.y * axis_t; }
     /// Height of a point over the plane, metres.
     double height(const Vec3& point) const { return glm::dot(normal, point - center); }
+    /// False behind the plane and in it: half the clearance, which holds the lift of rays off the wall that a screen is
+    /// glued to. What such points get is rounding.
+    bool is_before(const Vec3& point) const { return height(point) > 0.5 * clearance; }
 };
 
 /// The panels of a monitor, and after each its back where the monitor is two-sided. The clearance is 1e-4 of the
