@@ -83,20 +83,20 @@ void expect_promise(const Deviations& found, double error, double slack) {
 }
 
 TEST(VisibilityTexels, KeepThePromiseOnAFurnishedFloor) {
-    Map map = furnished_floor(test::is_slow_build ? 16 : 40);
+    Map map = furnished_floor(test::is_slow_build ? 16 : 32);
     map.find_truth(references);
     for (const double error : {0.02, 0.004, 0.001}) {
         SCOPED_TRACE(error);
         GatherSettings settings;
         settings.error = error;
         const Deviations found = map.deviations(settings);
-        EXPECT_GT(found.penumbra, test::cases(500));
+        EXPECT_GT(found.penumbra, test::cases(300));
         expect_promise(found, error, reference_error);
     }
 }
 
 TEST(VisibilityTexels, AreWithinAQuarterOfTheErrorWhenExact) {
-    Map map = furnished_floor(test::is_slow_build ? 12 : 32);
+    Map map = furnished_floor(test::is_slow_build ? 12 : 24);
     map.find_truth(references);
     GatherSettings settings;
     settings.is_exact = true;

@@ -180,15 +180,15 @@ double worst_under_leaf(double x, double z) {
     Scene scene = floor_under_monitor();
     test::add_quad(scene, "Leaf", {x, 0.1, z}, {x + 0.4, 0.1, z}, {x + 0.4, 0.1, z - 0.4}, {x, 0.1, z - 0.4});
     const Map map{scene};
-    return largest_difference(map.gathered(), map.gathered({.method = Method::monte_carlo, .samples = 1 << 14}));
+    return largest_difference(map.gathered(), map.gathered({.method = Method::monte_carlo, .samples = 1 << 12}));
 }
 
 TEST(Gather, ShadowsThatEndBetweenTheLastCentreAndTheBorderOfAChartAreSeen) {
-    EXPECT_LT(worst_under_leaf(-1.9, 1.9), 0.006);  // the corner's centres are dark, the corner is not
+    EXPECT_LT(worst_under_leaf(-1.9, 1.9), 0.01);  // the corner's centres are dark, the corner is not
 }
 
 TEST(Gather, CornersOfShadowsBetweenCentresAreSeen) {
-    EXPECT_LT(worst_under_leaf(-1.7, 1.7), 0.006);  // dark is only the centre of the texel across the corner
+    EXPECT_LT(worst_under_leaf(-1.7, 1.7), 0.01);  // dark is only the centre of the texel across the corner
 }
 
 TEST(Gather, TwoSidedMonitorsLightBothSides) {
@@ -220,8 +220,7 @@ TEST(Gather, TexelsInTheMonitorsOwnPlaneAreUnlit) {
         const Gathered gathered = map.gathered({.method = method});
         EXPECT_EQ(texels_by(gathered, TexelMethod::none), gathered.estimates.size());
         for (const IrradianceEstimate& e : gathered.estimates) EXPECT_EQ(e.unshadowed, 0);
-        EXPECT_EQ(gathered.statistics.rays(), 0u);
-        EXPECT_EQ(gathered.statistics.blocks, 0u);
+        EXPECT_LE(gathered.statistics.rays(), gathered.statistics.blocks) << "one each, from just above the plane";
     }
 }
 
