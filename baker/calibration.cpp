@@ -15,8 +15,10 @@
 namespace surimi {
 namespace {
 
-constexpr size_t tiles_per_sample = 40;
-constexpr size_t least_tiles = 192;
+/// Texels at a tile's rim are lit again where the next tile calls for it, so tiles are drawn two by two.
+constexpr uint32_t patch_size = 2 * tile_size;
+constexpr size_t patches_per_sample = 40;
+constexpr size_t least_patches = 64;
 constexpr size_t audited = 4;  // texels; each takes 65,536 rays
 
 class Timer {
@@ -35,9 +37,9 @@ uint64_t morton(uint32_t x, uint32_t y) {
     return code;
 }
 
-uint64_t tile_of(const Texels& texels, const Texel& texel) {
+uint64_t patch_of(const Texels& texels, const Texel& texel) {
     const auto width = static_cast<uint32_t>(texels.width);
-    return morton(texel.index % width / tile_size, texel.index / width / tile_size);
+    return morton(texel.index % width / patch_size, texel.index / width / patch_size);
 }
 
 /// Adds what a page's sample says, scaled by how many times the page is larger.
@@ -62,24 +64,24 @@ void add(Calibration& result, const Gathered& gathered, double scale, double ask
 
 }  // namespace
 
-Texels sample_tiles(const Texels& texels, uint64_t seed) {
-    std::vector<std::pair<uint64_t, uint32_t>> order;  // tile, number of the texel
+Texels sample_patches(const Texels& texels, uint64_t seed) {
+    std::vector<std::pair<uint64_t, uint32_t>> order;  // patch, number of the texel
     order.reserve(texels.texels.size());
-    for (uint32_t i = 0; i < texels.texels.size(); ++i) order.emplace_back(tile_of(texels, texels.texels[i]), i);
+    for (uint32_t i = 0; i < texels.texels.size(); ++i) order.emplace_back(patch_of(texels, texels.texels[i]), i);
     std::ranges::sort(order);
-    std::vector<size_t> starts;  // of tiles in `order`
+    std::vector<size_t> starts;  // of patches in `order`
     for (size_t i = 0; i < order.size(); ++i)
         if (i == 0 || order[i].first != order[i - 1].first) starts.push_back(i);
-    const size_t tiles = starts.size();
+    const size_t patches = starts.size();
     starts.push_back(order.size());
 
-    const size_t count = std::min(tiles, std::max(least_tiles, tiles / tiles_per_sample));
+    const size_t count = std::min(patches, std::max(least_patches, patches / patches_per_sample));
     std::vector<uint32_t> chosen;
     for (size_t i = 0; i < count; ++i) {
-        const size_t begin = i * tiles / count, end = (i + 1) * tiles / count;
+        const size_t begin = i * patches / count, end = (i + 1) * patches / count;
         const double place = unit_double(hash(hash(seed, static_cast<uint64_t>(texels.page)), i));
-        const size_t tile = begin + static_cast<size_t>(place * static_cast<double>(end - begin));
-        for (size_t k = starts[tile]; k < starts[tile + 1]; ++k) chosen.push_back(order[k].second);
+        const size_t patch = begin + static_cast<size_t>(place * static_cast<double>(end - begin));
+        for (size_t k = starts[patch]; k < starts[patch + 1]; ++k) chosen.push_back(order[k].second);
     }
     std::ranges::sort(chosen);
     Texels sample;
@@ -108,7 +110,7 @@ Calibration calibrate(const Scene& scene, const Preparation& preparation, size_t
         return gathered;
     };
     for (const Texels& texels : preparation.texels) {
-        const Texels sample = sample_tiles(texels, settings.seed);
+        const Texels sample = sample_patches(texels, settings.seed);
         result.texels += texels.texels.size();
         result.sampled += sample.texels.size();
         Texels empty;
@@ -147,7 +149,7 @@ double calibrate_fill(const Preparation& preparation) {
 double calibrate_audit(const Scene& scene, const Preparation& preparation, size_t monitor,
                        const GatherSettings& settings) {
     for (const Texels& texels : preparation.texels) {
-        const Texels sample = sample_tiles(texels, settings.seed);
+        const Texels sample = sample_patches(texels, settings.seed);
         const Gathered gathered =
             gather(scene, preparation.atlas, sample, *preparation.rays, preparation.silhouettes, monitor, settings, {});
         if (std::ranges::none_of(gathered.estimates, [](const auto& estimate) { return estimate.unshadowed > 0; }))

@@ -10,11 +10,11 @@
 
 namespace surimi {
 
-/// Some tiles of a page, all their texels: about one of every 40 tiles, at least 192, spread over the map in Morton
-/// order with a random one in every stretch. Depends on texels and seed alone.
-Texels sample_tiles(const Texels& texels, uint64_t seed);
+/// Some patches of two by two tiles of a page, all their texels: about one of every 40, at least 64, spread over the
+/// map in Morton order with a random one in every stretch. Depends on texels and seed alone.
+Texels sample_patches(const Texels& texels, uint64_t seed);
 
-/// What gather() will do for one monitor on all pages, from sampled tiles. All but the seconds is the same in every
+/// What gather() will do for one monitor on all pages, from sampled patches. All but the seconds is the same in every
 /// run.
 struct Calibration {
     struct OfMethod {
