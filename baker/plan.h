@@ -51,8 +51,8 @@ struct Plan {
     double rays() const;
 };
 
-/// The scene must outlive neither. Deterministic but for seconds and for what memory is measured. Throws what unwrap()
-/// throws, and Error(interrupted).
+/// The result does not refer to the scene. Deterministic but for seconds and for what memory is measured. Throws what
+/// unwrap() throws, and Error(interrupted).
 Plan plan(const Scene& scene, const BakeSettings& settings, const Progress& progress);
 
 }  // namespace surimi

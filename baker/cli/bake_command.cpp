@@ -45,7 +45,10 @@ int bake_scene(const Given& given, const std::filesystem::path& out) {
     Bake result;
     with_picture_of_faults(scene, config.bake.unwrap, out, [&] {
         const Progress progress = make_progress(given.progress, given.quiet);
-        if (config.seconds > 0) spend(scene, config, progress);
+        if (config.seconds > 0) {
+            const std::string choice = spend(scene, config, progress);
+            if (!given.quiet) fmt::print(stderr, "{}", choice);
+        }
         result = bake(scene, config.bake, progress);
     });
     const OutputPaths paths = write_bake(out, scene, result, settings_json(config));

@@ -37,7 +37,10 @@ int plan_scene(const Given& given, const std::filesystem::path& manifest) {
     const Progress progress = make_progress(given.progress, given.quiet);
     Plan result;
     with_picture_of_faults(scene, config.bake.unwrap, ".", [&] {
-        if (config.seconds > 0) spend(scene, config, progress);
+        if (config.seconds > 0) {
+            const std::string choice = spend(scene, config, progress);
+            if (!given.quiet) fmt::print(stderr, "{}", choice);
+        }
         result = plan(scene, config.bake, progress);
     });
     const std::string settings = settings_json(config);

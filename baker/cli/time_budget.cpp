@@ -61,7 +61,7 @@ std::vector<ErrorCost> measure_costs(const std::function<double(double error)>& 
     return costs;
 }
 
-void spend(const Scene& scene, Config& config, const Progress& progress) {
+std::string spend(const Scene& scene, Config& config, const Progress& progress) {
     const auto start = std::chrono::steady_clock::now();
     const auto elapsed = [&] {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -87,8 +87,9 @@ void spend(const Scene& scene, Config& config, const Progress& progress) {
     const ErrorChoice choice = choose_error(costs, config.seconds - rest - spent);
     gather.error = choice.chosen.error;
     const double predicted = choice.chosen.seconds + rest + spent;
-    fmt::print(stderr, "--time {}: error {} (predicted {:.3g} s, {:.2g} s of them for the choice){}\n", config.seconds,
-               gather.error, predicted, spent, choice.fits ? "" : "; no error takes less, so the time is exceeded");
+    return fmt::format("--time {}: error {} (predicted {:.3g} s, {:.2g} s of them for the choice){}\n", config.seconds,
+                       gather.error, predicted, spent,
+                       choice.fits ? "" : "; no error takes less, so the time is exceeded");
 }
 
 }  // namespace surimi

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "baker/cli/options.h"
@@ -32,7 +33,7 @@ ErrorChoice choose_error(std::span<const ErrorCost> costs, double seconds);
 std::vector<ErrorCost> measure_costs(const std::function<double(double error)>& seconds_at, double seconds);
 
 /// Sets config.bake.gather.error so that all that is still to be done fits in what is left of config.seconds, by
-/// calibration on this machine, and says on stderr what was chosen. Throws what plan() throws.
-void spend(const Scene& scene, Config& config, const Progress& progress);
+/// calibration on this machine, and returns a line that says what was chosen. Throws what plan() throws.
+std::string spend(const Scene& scene, Config& config, const Progress& progress);
 
 }  // namespace surimi

@@ -247,6 +247,31 @@ expect 2 "reference must be" "$surimi" study "$theater" --reference 16
 expect 2 "did you mean --texels" "$surimi" study "$theater" --texel 8
 expect 6 "cannot be written" "$surimi" study "$theater" --size 128 -o "$work/study.json"
 
+# Plans: words, numbers, and beside the bake that came of it
+expect 0 "foretold" "$surimi" plan "$theater" --size 128 --quality draft --quiet
+check grep -q "alpha filter *off" "$work/stdout"
+check grep -q "audit of Monitor_R *off .*--audit N" "$work/stdout"
+expect 0 "" "$surimi" bake "$theater" --size 128 --quality draft --quiet -o "$work/planned"
+expect 0 "plan against bake" "$surimi" plan "$theater" --size 128 --quality draft --quiet --compare "$work/planned/home-theater.visibility.json"
+expect 0 "had other settings" "$surimi" plan "$theater" --size 128 --error 0.03 --json --compare "$work/planned/home-theater.visibility.json"
+check node -e '
+    const { monitors, stages, run } = JSON.parse(require("fs").readFileSync(process.argv[1]));
+    const holds = monitors[0].reach.length > 3 && stages.some(({ stage, runs }) => stage === "unwrap" && runs) &&
+        run.seconds > 0 && run.memory.peak > 0 && run.comparison.rays.ratio > 0;
+    process.exit(holds ? 0 : 1)' "$work/stdout"
+expect 3 "cannot be read" "$surimi" plan "$theater" --compare "$work/missing.json"
+expect 3 "is no manifest" "$surimi" plan "$theater" --compare "$work/some.toml"
+expect 0 "error = 0.02" "$surimi" plan "$theater" --quality draft --print-config
+
+# --time: too little is said; the error of the manifest gives the same bytes
+expect 0 "so the time is exceeded" "$surimi" bake "$theater" --size 128 --time 0.001 -o "$work/timed"
+check grep -q -- "--time 0.001: error 0.05 " "$work/stderr"
+expect 0 "" "$surimi" bake "$theater" --size 128 --error 0.05 --quiet -o "$work/timed-again"
+for name in visibility.exr lightmaps.exr baked.glb; do
+    check cmp "$work/timed/home-theater.$name" "$work/timed-again/home-theater.$name"
+done
+check grep -q '"error": 0.05' "$work/timed/home-theater.visibility.json"
+
 # Comparing
 expect 0 "FLIP           0 " "$surimi" compare "$work/out/home-theater.visibility.exr" "$work/again/home-theater.visibility.exr"
 expect 5 "rmse is" "$surimi" compare "$work/lit.png" "$work/unshadowed.png" --fail-above 1e-6 --metric rmse

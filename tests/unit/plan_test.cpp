@@ -105,7 +105,7 @@ TEST(Plan, SurfacesThatFaceAwayAreUnlitAndTheirMonitorIsNotTraced) {
     EXPECT_EQ(roof.blocks.unlit, roof.blocks.seen);
     EXPECT_FALSE(stage(result, "light from Monitor_R").runs);
     EXPECT_EQ(result.monitors[0].calibration.lit, 0);
-    EXPECT_EQ(result.rays(), 0);
+    EXPECT_LT(result.rays(), 64) << "no more than a question for each block of the monitor's own surface";
 }
 
 TEST(Plan, FacingIsTheShareOfTheAreaInFront) {
