@@ -151,7 +151,8 @@ class BlockLighter {
         const TexelSurface& surface = block_.texels[i];
         const auto refine = [&] {
             const int side = block_.is_curved[i] || center.has_near || std::isinf(error) ? 4 : 2;
-            return refined(setup_, work_.sight, surface, {center, error, side}, key(i), work_.point);
+            return refined(setup_, work_.sight, surface, {center, error, side, block_.is_border[i] != 0}, key(i),
+                           work_.point);
         };
         if (!(center.unshadowed > 0)) return is_partly_lit(setup_, surface) ? refine() : TexelLight{center, 1};
         const bool may_trace = setup_.settings.method == Method::automatic;

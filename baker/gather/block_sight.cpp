@@ -13,12 +13,21 @@ Vec3 middle_of(std::span<const Vec3> corners) {
     return sum / static_cast<double>(corners.size());
 }
 
-/// Does the plane have all of the block on one side and all of the panel on the other?
-bool separates(const FacePlane& plane, const Shaft& shaft) {
+/// Does the plane have all of the block on one side and the ends of all rays on the other? They end at the clearance
+/// before the panel: of a facet that comes closer to it than that, a part hides nothing.
+bool separates(const FacePlane& plane, const Shaft& shaft, const Panel& panel) {
     const auto height = [&](const Vec3& p) { return glm::dot(plane.normal, p) - plane.distance; };
     const double side = height(shaft.block.front()) > 0 ? 1 : -1;
-    return std::ranges::all_of(shaft.block, [&](const Vec3& p) { return side * height(p) > 0; }) &&
-           std::ranges::all_of(shaft.panel, [&](const Vec3& p) { return side * height(p) < 0; });
+    double nearest = INFINITY, farthest = 0, lowest = INFINITY, behind = -INFINITY;
+    for (const Vec3& p : shaft.block) {
+        nearest = std::min(nearest, side * height(p));
+        farthest = std::max(farthest, side * height(p));
+        lowest = std::min(lowest, panel.height(p));
+    }
+    for (const Vec3& q : shaft.panel) behind = std::max(behind, side * height(q));
+    if (!(nearest > shaft.margin) || !(lowest > panel.clearance)) return false;
+    const double share = panel.clearance / lowest;  // of the way that is left at a ray's end, at most
+    return behind * (1 - share) + farthest * share < -shaft.margin;
 }
 
 /// The certificate of (M51): the facet that the ray between the middles meets hides everything from everywhere.
@@ -28,7 +37,7 @@ bool is_hidden_by_facet(const MonitorSetup& setup, const Panel& panel, const Sha
     if (!hit || hit->surface >= setup.silhouettes.plane_of.size()) return false;
     const uint32_t plane = setup.silhouettes.plane_of[hit->surface][hit->triangle];
     if (plane == Edge::no_plane) return false;
-    return separates(setup.silhouettes.planes[plane], shaft) && !meets_rim(setup.silhouettes, shaft, plane);
+    return separates(setup.silhouettes.planes[plane], shaft, panel) && !meets_rim(setup.silhouettes, shaft, plane);
 }
 
 /// Candidates so close to the block that moving by an eighth of a texel moves their shadows by half the panel or more:

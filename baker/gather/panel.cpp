@@ -36,7 +36,8 @@ Panel make_panel(const Polygon& polygon, const Vec3& scene_center) {
         panel.corners.emplace_back(glm::dot(s, place - panel.center) / extent_s,
                                    glm::dot(t, place - panel.center) / extent_t);
     constexpr double half_ulp = 0.5 * std::numeric_limits<float>::epsilon();
-    panel.clearance = 1e-4 * diameter + 64 * half_ulp * magnitude;
+    panel.rounding = 64 * half_ulp * magnitude;
+    panel.clearance = 1e-4 * diameter + panel.rounding;
     return panel;
 }
 

@@ -18,18 +18,19 @@ struct Panel {
     Vec3 normal{0, 0, 1};       ///< unit, front side; axis_s x axis_t points there
     std::vector<Vec2> corners;  ///< in (s, t), counter-clockwise seen from the front
     std::vector<Vec3> places;   ///< the same in space
+    double rounding = 0;        ///< metres; 64 half-ulps of the largest coordinate
     double clearance = 0;       ///< metres in front of the plane within which nothing counts as an occluder
 
     Vec3 at(const Vec2& place) const { return center + place.x * axis_s + place.y * axis_t; }
     /// Height of a point over the plane, metres.
     double height(const Vec3& point) const { return glm::dot(normal, point - center); }
-    /// False behind the plane and in it: half the clearance, which holds the lift of rays off the wall that a screen is
-    /// glued to. What such points get is rounding.
-    bool is_before(const Vec3& point) const { return height(point) > 0.5 * clearance; }
+    /// False behind the plane and, to rounding, in it; that holds the lift of rays off the wall that a screen is glued
+    /// to. What such points get is rounding.
+    bool is_before(const Vec3& point) const { return height(point) > rounding; }
 };
 
 /// The panels of a monitor, and after each its back where the monitor is two-sided. The clearance is 1e-4 of the
-/// panel's diameter and 64 half-ulps of the largest coordinate: a screen that is glued to its wall or let into it is
+/// panel's diameter and the rounding: a screen that is glued to its wall or let into it is
 /// not hidden by it.
 std::vector<Panel> panels_of(const Monitor& monitor, const RayScene& rays);
 

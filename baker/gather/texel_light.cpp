@@ -2,6 +2,7 @@
 #include "baker/gather/texel_light.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "runtime/base/random.h"
@@ -134,6 +135,33 @@ TexelLight by_rays(const MonitorSetup& setup, const TexelSurface& surface, doubl
     return value;
 }
 
+namespace {
+
+/// How much the rim of a texel's largest piece differs from what its middle says: the mean of the corners is that of a
+/// plane wherever light is smooth, and not where a shadow lies along a side. `spent` gets the points.
+double rim_difference(const MonitorSetup& setup, const BlockSight& sight, const TexelSurface& surface, uint64_t key,
+                      PointWorkspace& work, TexelLight& spent) {
+    const TexelSurface::Piece* largest = &surface.pieces().front();
+    for (const TexelSurface::Piece& piece : surface.pieces())
+        if (surface.share_of(piece) > surface.share_of(*largest)) largest = &piece;
+    const Vec2 middle = largest->is_square ? Vec2(0.5) : Vec2(2.0 / 3, 1.0 / 3);
+    const auto visibility_at = [&](const Vec2& uv) {
+        const PointLight light = light_at(setup, sight, TexelSurface::point_of(*largest, uv), hash(key, 50), work);
+        ++spent.points;
+        spent.light.rays += light.rays;
+        spent.light.segments += light.segments;
+        return light.visibility();
+    };
+    // A little inside: corners themselves lie on what stands there.
+    const std::array<Vec2, 4> corners = {Vec2(0, 0), Vec2(1, 0), Vec2(1, 1), Vec2(0, 1)};
+    const size_t count = largest->is_square ? 4 : 3;
+    double sum = 0;
+    for (size_t i = 0; i < count; ++i) sum += visibility_at(glm::mix(corners[i], middle, 0.04));
+    return std::abs(sum / static_cast<double>(count) - visibility_at(middle));
+}
+
+}  // namespace
+
 TexelLight refined(const MonitorSetup& setup, const BlockSight& sight, const TexelSurface& surface,
                    const Beginning& from, uint64_t key, PointWorkspace& work) {
     const Tolerances limits = tolerances(setup.settings);
@@ -141,6 +169,7 @@ TexelLight refined(const MonitorSetup& setup, const BlockSight& sight, const Tex
     const double cost_of_point =
         cost_of_projecting(sight.candidates()) + cost_of_scan(work.segments.count, limits.first_lines);
     TexelLight best{from.center, 1};
+    const double rim = from.is_border ? rim_difference(setup, sight, surface, key, work, best) : 0;
     double change_before = 1;
     for (int side = from.side; side <= 16; side *= 2) {
         TexelLight next = average_over_cells(setup, sight, surface, side, key, work);
@@ -154,8 +183,10 @@ TexelLight refined(const MonitorSetup& setup, const BlockSight& sight, const Tex
         best.light.error = std::hypot(next.light.error, left_by_change);
         if (!is_usable) break;
         // Two steps can agree by chance where a shadow's edge misses their points.
-        const double expected = std::isfinite(from.footprint) ? from.footprint / (side * side)
-                                                              : (next.highest - next.lowest) / (4 * side * side);
+        const double by_neighbours = std::isfinite(from.footprint) ? from.footprint / (side * side)
+                                                                   : (next.highest - next.lowest) / (4 * side * side);
+        // A strip along a side that the cells' middles miss is half a cell wide at most.
+        const double expected = std::max(by_neighbours, rim / (2 * side));
         if (std::max(left_by_change, expected) <= limits.footprint) return best;
         if (side > from.side && change > 0.6 * change_before) break;  // not smooth at all
         change_before = change;

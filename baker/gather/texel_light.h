@@ -24,8 +24,9 @@ TexelLight average_over_cells(const MonitorSetup& setup, const BlockSight& sight
 /// What is known of a texel before it is refined.
 struct Beginning {
     PointLight center;
-    double footprint = 0;  ///< what the average may differ from it (footprint.h); infinite where nothing is known
-    int side = 2;          ///< cells a side to begin with: 4 for a texel about which four points say little
+    double footprint = 0;    ///< what the average may differ from it (footprint.h); infinite where nothing is known
+    int side = 2;            ///< cells a side to begin with: 4 for a texel about which four points say little
+    bool is_border = false;  ///< of its chart: what happens at the rim has to be looked at
 };
 
 /// Refines from the value at the centre: four points, sixteen and so on, until two steps agree or rays would be
