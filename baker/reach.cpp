@@ -128,7 +128,6 @@ BlockCounts count_block(const MonitorSetup& setup, const BlockSurfaces& block, B
     else
         sight.count = 0;
     const GatherSettings& settings = setup.settings;
-    const bool may_choose = settings.method == Method::automatic && !settings.is_exact;
     if (sight.count == 0) {
         counts.unlit = 1;
         return counts;
@@ -142,8 +141,7 @@ BlockCounts count_block(const MonitorSetup& setup, const BlockSurfaces& block, B
         counts.crowded = 1;
     else if (counts.candidates == 0)
         counts.open = 1;
-    else if (may_choose &&
-             cost_of_projecting(counts.candidates) > cost_of_monte_carlo(tolerances(settings).monte_carlo))
+    else if (are_rays_cheaper(counts.candidates, settings))
         counts.crowded = 1;
     else
         counts.silhouettes = 1;

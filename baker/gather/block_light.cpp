@@ -62,9 +62,7 @@ class BlockLighter {
     bool only_rays() const {
         if (work_.sight.is_hidden()) return false;
         if (work_.sight.has_cutouts || setup_.settings.method == Method::monte_carlo) return true;
-        return setup_.settings.method == Method::automatic && !setup_.settings.is_exact &&
-               cost_of_projecting(work_.sight.candidates()) >
-                   cost_of_monte_carlo(tolerances(setup_.settings).monte_carlo);
+        return are_rays_cheaper(work_.sight.candidates(), setup_.settings);
     }
 
     void count_block() {
@@ -101,10 +99,11 @@ class BlockLighter {
     }
 
     void light_by_rays() {
+        const double error = tolerances(setup_.settings).all_by_rays;
         for (size_t i = 0; i < texels_.size(); ++i) {
             double unshadowed = unshadowed_at(setup_, block_.centers[i]);
             if (!(unshadowed > 0) && is_partly_lit(setup_, block_.texels[i])) unshadowed = cell_average(i);
-            write(i, unshadowed > 0 ? by_rays(setup_, block_.texels[i], unshadowed, key(i)) : TexelLight{});
+            write(i, unshadowed > 0 ? by_rays(setup_, block_.texels[i], unshadowed, error, key(i)) : TexelLight{});
         }
     }
 
@@ -157,7 +156,7 @@ class BlockLighter {
         if (!(center.unshadowed > 0)) return is_partly_lit(setup_, surface) ? refine() : TexelLight{center, 1};
         const bool may_trace = setup_.settings.method == Method::automatic;
         if (may_trace && (block_.is_pierced[i] || center.is_self_hidden))
-            return by_rays(setup_, surface, center.unshadowed, key(i));
+            return by_rays(setup_, surface, center.unshadowed, tolerances(setup_.settings).monte_carlo, key(i));
         if (center.has_failed || center.is_dear || block_.is_curved[i] || block_.is_pierced[i] || center.has_near ||
             center.is_self_hidden || block_.is_border[i])
             return refine();

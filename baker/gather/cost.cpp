@@ -12,8 +12,9 @@ Tolerances tolerances(const GatherSettings& settings) {
     const double error = settings.is_exact ? settings.error / 4 : settings.error;
     result.lines = 0.75 * error;
     result.footprint = 0.25 * error;
-    // 99.9 % of all texels within the error, when a tenth of them is left to rays.
+    // 99.9 % of all texels within the error.
     result.monte_carlo = error / 2.6;
+    result.all_by_rays = error / 3.3;
     // Features between two lines go unseen: (2.8 / lines)^2 / 4 of the panel's square at most.
     result.first_lines = error >= 0.015 ? 16 : error >= 0.003 ? 40 : 64;
     return result;
@@ -41,6 +42,15 @@ double cost_of_monte_carlo(double standard_error) {
 double cost_of_average_by_rays(double standard_error) {
     const double rays = 14000 * std::pow(1e-3 / standard_error, 1.5);
     return 110 * std::clamp(rays, 64.0, 65536.0);
+}
+
+bool are_rays_cheaper(size_t candidates, const GatherSettings& settings) {
+    if (settings.method != Method::automatic || settings.is_exact) return false;
+    const Tolerances limits = tolerances(settings);
+    const size_t segments = candidates / 2;
+    const double of_point =
+        cost_of_projecting(candidates) + std::min(cost_of_split(segments), cost_of_scan(segments, limits.first_lines));
+    return of_point > cost_of_monte_carlo(limits.all_by_rays);
 }
 
 }  // namespace surimi

@@ -13,7 +13,8 @@ namespace surimi {
 struct Tolerances {
     double lines = 0;        ///< estimate of a point at which scanlines stop
     double footprint = 0;    ///< of a texel's average over a few points
-    double monte_carlo = 0;  ///< standard error at which rays stop
+    double monte_carlo = 0;  ///< standard error at which rays stop, where a tenth of the texels is left to them
+    double all_by_rays = 0;  ///< the same where all are
     int first_lines = 64;    ///< scanlines to begin with
 };
 Tolerances tolerances(const GatherSettings& settings);
@@ -27,5 +28,9 @@ double cost_of_scan(size_t segments, int lines);
 double cost_of_monte_carlo(double standard_error);
 /// Where a texel's points differ as well: shadows that are sharper than the texel.
 double cost_of_average_by_rays(double standard_error);
+
+/// Are a block's texels left to rays because it has so many candidates, of which half are taken to be silhouettes, that
+/// one point each would cost more?
+bool are_rays_cheaper(size_t candidates, const GatherSettings& settings);
 
 }  // namespace surimi

@@ -117,11 +117,12 @@ TexelLight average_over_cells(const MonitorSetup& setup, const BlockSight& sight
     return average.value();
 }
 
-TexelLight by_rays(const MonitorSetup& setup, const TexelSurface& surface, double unshadowed, uint64_t key) {
+TexelLight by_rays(const MonitorSetup& setup, const TexelSurface& surface, double unshadowed, double error,
+                   uint64_t key) {
     MonteCarloTask task{setup.rays, setup.sampler, sample_points()};
     task.monitor = setup.monitor;
     task.clearance = setup.largest_clearance();
-    task.error = tolerances(setup.settings).monte_carlo;
+    task.error = error;
     task.samples = setup.settings.samples;
     task.key = hash(key, 1);
     const MonteCarloEstimate estimate = monte_carlo(task, surface);
@@ -194,7 +195,7 @@ TexelLight refined(const MonitorSetup& setup, const BlockSight& sight, const Tex
         for (; left > limits.footprint; left /= 4) points *= 4;
         if (may_trace && points * cost_of_point > cost_of_average_by_rays(limits.monte_carlo)) break;
     }
-    if (may_trace) return with_cost_of(by_rays(setup, surface, best.light.unshadowed, key), best);
+    if (may_trace) return with_cost_of(by_rays(setup, surface, best.light.unshadowed, limits.monte_carlo, key), best);
     return with_cost_of(by_many_points(setup, sight, surface, key, work), best);
 }
 

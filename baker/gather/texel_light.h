@@ -35,7 +35,8 @@ struct Beginning {
 TexelLight refined(const MonitorSetup& setup, const BlockSight& sight, const TexelSurface& surface,
                    const Beginning& from, uint64_t key, PointWorkspace& work);
 
-/// By rays; `unshadowed` > 0.
-TexelLight by_rays(const MonitorSetup& setup, const TexelSurface& surface, double unshadowed, uint64_t key);
+/// By rays, until the standard error of V is `error`; `unshadowed` > 0.
+TexelLight by_rays(const MonitorSetup& setup, const TexelSurface& surface, double unshadowed, double error,
+                   uint64_t key);
 
 }  // namespace surimi

@@ -118,15 +118,15 @@ TEST(TexelLight, RefinesUntilTheErrorIsReached) {
 TEST(TexelLight, RaysKeepTheIrradianceOfTheClosedForm_M6) {
     Sight sight({.error = 0.004, .method = Method::monte_carlo});
     const TexelSurface surface = sight.surface(9, 3);
-    const TexelLight light = by_rays(sight.setup, surface, 0.5, 3);
+    const TexelLight light = by_rays(sight.setup, surface, 0.5, 0.001, 3);
     EXPECT_EQ(light.light.unshadowed, 0.5);
     EXPECT_EQ(light.light.method, TexelMethod::monte_carlo);
     EXPECT_NEAR(light.light.visibility(), sight.truth(surface), 0.004);
     EXPECT_LE(light.light.error, 0.002);
-    EXPECT_EQ(by_rays(sight.setup, surface, 0.5, 3).light.shadowed, light.light.shadowed);
-    EXPECT_NE(by_rays(sight.setup, surface, 0.5, 4).light.shadowed, light.light.shadowed);
+    EXPECT_EQ(by_rays(sight.setup, surface, 0.5, 0.001, 3).light.shadowed, light.light.shadowed);
+    EXPECT_NE(by_rays(sight.setup, surface, 0.5, 0.001, 4).light.shadowed, light.light.shadowed);
     Sight counted({.method = Method::monte_carlo, .samples = 100});
-    EXPECT_EQ(by_rays(counted.setup, counted.surface(9, 3), 0.5, 3).light.rays, 100u);
+    EXPECT_EQ(by_rays(counted.setup, counted.surface(9, 3), 0.5, 0.001, 3).light.rays, 100u);
 }
 
 }  // namespace
