@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Bakes real rooms at 1024 x 1024 with the default settings and prints what it cost and how far the maps are from an
+# Bakes real rooms at 1024 x 1024 with the default settings, or BAKE_OPTIONS, and prints what it cost and how far the maps are from an
 # independent oracle, as rows of a Markdown table: rooms.sh SURIMI SCENES ORACLE [POINTS]
 # ORACLE is called as `ORACLE check BAKED.glb MAP.exr MONITORS POINTS SEED SIDE`.
 set -euo pipefail
@@ -11,7 +11,8 @@ echo "| scene | triangles | seconds | M rays | M rays/s | peak MiB | texels meas
 echo "|---|--:|--:|--:|--:|--:|---|--:|--:|--:|"
 for scene in home-theater garage living-room classroom veach-ajar; do
     file=$scenes/$scene/$scene.glb
-    "$surimi" bake "$file" -o "$work" --quiet >/dev/null
+    # shellcheck disable=SC2086 # several options
+    "$surimi" bake "$file" -o "$work" --quiet ${BAKE_OPTIONS:-} >/dev/null
     "$surimi" inspect "$file" --json >"$work/inspect.json"
     monitors=$(node -p 'JSON.parse(require("fs").readFileSync(process.argv[1])).monitors.map(m => m.name).join()' "$work/inspect.json")
     "$oracle" check "$work/$scene.baked.glb" "$work/$scene.visibility.exr" "$monitors" "$points" 1 16 >"$work/oracle.txt"
