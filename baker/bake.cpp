@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "baker/bake.h"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <chrono>
 
 #include "baker/monitor_warnings.h"
 #include "baker/post/ratio.h"
+#include "baker/preparation.h"
 #include "runtime/trace/ray_scene.h"
 
 namespace surimi {
@@ -20,13 +19,11 @@ class Stopwatch {
 
     void finish(const std::string& stage, size_t rays = 0) {
         const auto now = std::chrono::steady_clock::now();
-        rusage usage{};
-        getrusage(RUSAGE_SELF, &usage);
         auto cost = std::find_if(costs_.begin(), costs_.end(), [&](const StageCost& c) { return c.stage == stage; });
         if (cost == costs_.end()) cost = costs_.insert(cost, {stage});
         cost->seconds += std::chrono::duration<double>(now - start_).count();
         cost->rays += rays;
-        cost->peak_bytes = static_cast<size_t>(usage.ru_maxrss) * 1024;
+        cost->peak_bytes = peak_resident_bytes();
         start_ = now;
     }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "baker/monitor_warnings.h"
+#include "runtime/scene/texture.h"
 
 namespace surimi {
 namespace {
@@ -26,10 +27,8 @@ std::string percent(size_t part, size_t whole) {
 }
 
 size_t masked_surfaces(const Scene& scene) {
-    return static_cast<size_t>(std::ranges::count_if(scene.surfaces, [&](const Surface& surface) {
-        return surface.material >= 0 &&
-               scene.materials[static_cast<size_t>(surface.material)].alpha_mode == AlphaMode::mask;
-    }));
+    return static_cast<size_t>(
+        std::ranges::count_if(scene.surfaces, [&](const Surface& surface) { return is_cutout(scene, surface); }));
 }
 
 /// Writes down a plan's stages in the order of bake().

@@ -37,11 +37,8 @@ double distance_to(const Vec3& point, std::span<const Vec3> polygon, const Vec3&
     bool is_over = true;
     for (size_t i = 0; i < polygon.size(); ++i) {
         const Vec3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-        const Vec3 edge = b - a;
-        const double length2 = glm::dot(edge, edge);
-        const double t = length2 > 0 ? std::clamp(glm::dot(point - a, edge) / length2, 0.0, 1.0) : 0;
-        to_edges = std::min(to_edges, glm::length(point - (a + t * edge)));
-        is_over = is_over && glm::dot(glm::cross(normal, edge), point - a) >= 0;
+        to_edges = std::min(to_edges, distance_to_segment(point, a, b));
+        is_over = is_over && glm::dot(glm::cross(normal, b - a), point - a) >= 0;
     }
     return is_over && !polygon.empty() ? std::abs(glm::dot(point - polygon[0], normal)) : to_edges;
 }

@@ -37,11 +37,6 @@ std::string shares_of_methods(const GatherStatistics& statistics) {
     return parts.empty() ? "" : fmt::format(" ({})", fmt::join(parts, ", "));
 }
 
-/// Rounded down: 100 % are all.
-std::string percent_within(double share_above) {
-    return fmt::format("{:.4g} %", std::floor((1 - share_above) * 1e4) / 100);
-}
-
 std::string audit_phrase(const std::vector<Audit>& audits, double error) {
     const Audit audit = joined_audit(audits);
     if (audit.texels == 0) return "";
@@ -54,6 +49,10 @@ std::string title(const Monitor& monitor) {
 }
 
 }  // namespace
+
+std::string percent_within(double share_above) {
+    return fmt::format("{:.4g} %", std::floor((1 - share_above) * 1e4) / 100);
+}
 
 void print_evidence(const Scene& scene, const Bake& bake) {
     for (size_t m = 0; m < scene.monitors.size(); ++m) {

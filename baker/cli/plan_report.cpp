@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "baker/cli/evidence_summary.h"
 #include "baker/evidence.h"
 
 namespace surimi {
@@ -190,9 +191,9 @@ std::string plan_text(const Scene& scene, const Plan& plan, const BakeSettings& 
     for (size_t m = 0; m < plan.monitors.size(); ++m) {
         const Calibration& c = plan.monitors[m].calibration;
         if (c.lit > 0)
-            text += fmt::format("  {}: estimated error: {:.4g} % within {}, RMS {:.2g}; from {} of {} texels\n",
-                                title(scene.monitors[m]), std::floor((1 - c.share_above) * 1e4) / 100,
-                                settings.gather.error, c.rms_error, c.sampled, c.texels);
+            text += fmt::format("  {}: estimated error: {} within {}, RMS {:.2g}; from {} of {} texels\n",
+                                title(scene.monitors[m]), percent_within(c.share_above), settings.gather.error,
+                                c.rms_error, c.sampled, c.texels);
     }
     if (comparison) text += comparison_text(*comparison);
     return text;

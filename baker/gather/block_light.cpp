@@ -99,7 +99,7 @@ class BlockLighter {
     }
 
     void light_by_rays() {
-        const double error = tolerances(setup_.settings).all_by_rays;
+        const double error = setup_.limits.all_by_rays;
         for (size_t i = 0; i < texels_.size(); ++i) {
             double unshadowed = unshadowed_at(setup_, block_.centers[i]);
             if (!(unshadowed > 0) && is_partly_lit(setup_, block_.texels[i])) unshadowed = cell_average(i);
@@ -117,12 +117,11 @@ class BlockLighter {
     void light_centers() {
         work_.centers.clear();
         work_.visibilities.clear();
-        work_.point.texel_size = block_.texel_size;
         for (size_t i = 0; i < texels_.size(); ++i) {
             work_.centers.push_back(light_at(setup_, work_.sight, block_.centers[i], key(i), work_.point));
             const PointLight& light = work_.centers.back();
             // What is not known makes the differences with it unknown.
-            const bool is_known = light.unshadowed > 0 && !light.has_failed && !light.is_dear;
+            const bool is_known = light.unshadowed > 0 && light.is_usable();
             work_.visibilities.push_back(is_known ? light.visibility() : INFINITY);
         }
     }
@@ -156,11 +155,11 @@ class BlockLighter {
         if (!(center.unshadowed > 0)) return is_partly_lit(setup_, surface) ? refine() : TexelLight{center, 1};
         const bool may_trace = setup_.settings.method == Method::automatic;
         if (may_trace && (block_.is_pierced[i] || center.is_self_hidden))
-            return by_rays(setup_, surface, center.unshadowed, tolerances(setup_.settings).monte_carlo, key(i));
-        if (center.has_failed || center.is_dear || block_.is_curved[i] || block_.is_pierced[i] || center.has_near ||
+            return by_rays(setup_, surface, center.unshadowed, setup_.limits.monte_carlo, key(i));
+        if (!center.is_usable() || block_.is_curved[i] || block_.is_pierced[i] || center.has_near ||
             center.is_self_hidden || block_.is_border[i])
             return refine();
-        if (error > tolerances(setup_.settings).footprint) return refine();
+        if (error > setup_.limits.footprint) return refine();
         TexelLight texel{center, 1};
         texel.light.error = std::hypot(center.error, error);
         texel.is_by_center = true;

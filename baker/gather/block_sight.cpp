@@ -74,11 +74,11 @@ void put_on_lines(Candidates& c, size_t first_cut, const Panel& panel) {
     }
 }
 
-size_t look_at_panel(BlockSight& block, PanelSight& sight, const MonitorSetup& setup, size_t panel_index,
-                     const Shaft& shaft) {
+void look_at_panel(BlockSight& block, PanelSight& sight, const MonitorSetup& setup, size_t panel_index,
+                   const Shaft& shaft) {
     sight.is_hidden = is_hidden_by_facet(setup, *sight.panel, shaft);
     sight.candidates.assign(setup.silhouettes, {});
-    if (sight.is_hidden) return 1;
+    if (sight.is_hidden) return;
     find_candidates(setup.silhouettes, shaft, setup.monitor, block.found);
     sight.candidates.assign(setup.silhouettes, block.found);
     sight.candidates.finish();
@@ -90,7 +90,6 @@ size_t look_at_panel(BlockSight& block, PanelSight& sight, const MonitorSetup& s
         put_on_lines(sight.candidates, sight.first_cut, *sight.panel);
         sight.candidates.finish();
     }
-    return 1;
 }
 
 }  // namespace
@@ -108,10 +107,10 @@ bool BlockSight::is_hidden() const {
 
 size_t look_from(BlockSight& sight, const MonitorSetup& setup, std::span<const Vec3> corners, double texel_size) {
     sight.count = 0;
+    sight.texel_size = texel_size;
     sight.has_cutouts = false;
     double scale = 0;
-    for (const Vec3& corner : corners)
-        scale = std::max({scale, std::abs(corner.x), std::abs(corner.y), std::abs(corner.z)});
+    for (const Vec3& corner : corners) scale = std::max(scale, largest_component(corner));
     size_t rays = 0;
     for (size_t i = 0; i < setup.panels.size(); ++i) {
         const Panel& panel = setup.panels[i];
@@ -119,10 +118,10 @@ size_t look_from(BlockSight& sight, const MonitorSetup& setup, std::span<const V
         if (sight.panels.size() == sight.count) sight.panels.emplace_back();
         PanelSight& panel_sight = sight.panels[sight.count++];
         panel_sight.panel = &panel;
-        for (const Vec3& place : panel.places)
-            scale = std::max({scale, std::abs(place.x), std::abs(place.y), std::abs(place.z)});
+        for (const Vec3& place : panel.places) scale = std::max(scale, largest_component(place));
         const Shaft shaft = make_shaft(corners, panel.places, scale);
-        rays += look_at_panel(sight, panel_sight, setup, i, shaft);
+        look_at_panel(sight, panel_sight, setup, i, shaft);
+        ++rays;  // of the certificate
         if (!panel_sight.is_hidden) {
             sight.has_cutouts = sight.has_cutouts || meets_cutout(setup.silhouettes, shaft);
             find_near(panel_sight, middle_of(corners), texel_size);

@@ -22,6 +22,7 @@ struct PanelSight {
 struct BlockSight {
     std::vector<PanelSight> panels;  ///< [0, count): panels that some point of the block is in front of
     size_t count = 0;
+    double texel_size = 0;        ///< metres, of the largest texel of the block
     bool has_cutouts = false;     ///< an alpha-masked surface may be in the way: only rays tell
     std::vector<uint32_t> found;  ///< memory of the queries
 
@@ -30,7 +31,7 @@ struct BlockSight {
 };
 
 /// `corners`: of a convex volume that holds all points that rays start from, relative to RayScene::center().
-/// `texel_size`: metres, of the largest texel of the block. The arrays of `sight` are reused. Returns the rays used.
+/// The arrays of `sight` are reused. Returns the rays used.
 size_t look_from(BlockSight& sight, const MonitorSetup& setup, std::span<const Vec3> corners, double texel_size);
 
 }  // namespace surimi

@@ -18,10 +18,6 @@ bool is_parallel(const Vec3& a, const Vec3& b) {
     return glm::dot(a, b) > 0 && glm::dot(sine, sine) < equal_normals * equal_normals;
 }
 
-double magnitude(const Vec3& v) {
-    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-}
-
 double area_of(const WeldedMesh& mesh, uint32_t triangle) {
     const auto& [a, b, c] = mesh.corners[triangle];
     return glm::length(area_normal(Vec3(mesh.places[a]), Vec3(mesh.places[b]), Vec3(mesh.places[c])));
@@ -64,10 +60,10 @@ std::vector<Seed> seeds_of(const WeldedMesh& mesh, const std::vector<uint32_t>& 
 bool lies_in(const WeldedMesh& mesh, uint32_t triangle, uint32_t standing) {
     const FacePlane& plane = mesh.planes[standing];
     if (!is_parallel(plane.normal, mesh.planes[triangle].normal)) return false;
-    const double around = magnitude(Vec3(mesh.places[mesh.corners[standing][0]]));
+    const double around = largest_component(Vec3(mesh.places[mesh.corners[standing][0]]));
     for (const uint32_t corner : mesh.corners[triangle]) {
         const Vec3 place(mesh.places[corner]);
-        const double rounding = std::numeric_limits<float>::epsilon() * std::max(around, magnitude(place));
+        const double rounding = std::numeric_limits<float>::epsilon() * std::max(around, largest_component(place));
         if (std::abs(glm::dot(plane.normal, place) - plane.distance) > rounding) return false;
     }
     return true;

@@ -105,6 +105,15 @@ double footprint_across_tiles(const Gathering& g, const std::vector<float>& visi
                            std::max(difference({1, 1}), difference({1, -1})));
 }
 
+/// Calls visit(number of the block, its part of the statistics) for all blocks, in parallel.
+template <class Visit>
+void for_each_block(Gathering& g, const Progress& progress, const Visit& visit) {
+    parallel_stage("light from " + g.setup.light().name, g.blocks.count(), Gathering::grain, progress,
+                   [&](size_t begin, size_t end) {
+                       for (size_t b = begin; b < end; ++b) visit(b, g.parts[begin / Gathering::grain]);
+                   });
+}
+
 /// Texels at the rim of a tile that were judged by their centre, without the neighbour in the next tile.
 void light_rims_again(Gathering& g, const Progress& progress) {
     std::vector<float> visibility(g.lit.size());
@@ -112,26 +121,22 @@ void light_rims_again(Gathering& g, const Progress& progress) {
         const IrradianceEstimate& e = g.lit[i].estimate;
         visibility[i] = e.unshadowed > 0 ? e.shadowed / e.unshadowed : std::numeric_limits<float>::quiet_NaN();
     }
-    const double limit = tolerances(g.setup.settings).footprint;
+    const double limit = g.setup.limits.footprint;
     const auto width = static_cast<uint32_t>(g.texels.width);
     const auto is_rim = [&](uint32_t index) {
         const uint32_t x = index % width % tile_size, y = index / width % tile_size;
         return x == 0 || y == 0 || x + 1 == tile_size || y + 1 == tile_size;
     };
-    parallel_stage("light from " + g.setup.light().name, g.blocks.count(), Gathering::grain, progress,
-                   [&](size_t begin, size_t end) {
-                       for (size_t b = begin; b < end; ++b) {
-                           std::vector<uint32_t> members;
-                           std::vector<double> footprints;
-                           for (const uint32_t number : g.blocks[b]) {
-                               if (!g.lit[number].is_by_center || !is_rim(g.texels.texels[number].index)) continue;
-                               const double error = footprint_across_tiles(g, visibility, number);
-                               if (error > limit) members.push_back(number), footprints.push_back(error);
-                           }
-                           if (!members.empty())
-                               light_members(g, members, footprints, g.parts[begin / Gathering::grain]);
-                       }
-                   });
+    for_each_block(g, progress, [&](size_t b, GatherStatistics& statistics) {
+        std::vector<uint32_t> members;
+        std::vector<double> footprints;
+        for (const uint32_t number : g.blocks[b]) {
+            if (!g.lit[number].is_by_center || !is_rim(g.texels.texels[number].index)) continue;
+            const double error = footprint_across_tiles(g, visibility, number);
+            if (error > limit) members.push_back(number), footprints.push_back(error);
+        }
+        if (!members.empty()) light_members(g, members, footprints, statistics);
+    });
 }
 
 }  // namespace
@@ -145,11 +150,8 @@ Gathered gather(const Scene& scene, const Atlas& atlas, const Texels& texels, co
     g.number_at.assign(static_cast<size_t>(texels.width) * static_cast<size_t>(texels.height), Gathering::nobody);
     for (uint32_t i = 0; i < texels.texels.size(); ++i) g.number_at[texels.texels[i].index] = i;
 
-    parallel_stage("light from " + g.setup.light().name, g.blocks.count(), Gathering::grain, part_of(progress, 0, 2),
-                   [&](size_t begin, size_t end) {
-                       for (size_t b = begin; b < end; ++b)
-                           light_members(g, g.blocks[b], {}, g.parts[begin / Gathering::grain]);
-                   });
+    for_each_block(g, part_of(progress, 0, 2),
+                   [&](size_t b, GatherStatistics& statistics) { light_members(g, g.blocks[b], {}, statistics); });
     light_rims_again(g, part_of(progress, 1, 2));
 
     Gathered result;

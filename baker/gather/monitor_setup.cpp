@@ -5,6 +5,7 @@
 #include <array>
 
 #include "runtime/base/parallel.h"
+#include "runtime/scene/texture.h"
 
 namespace surimi {
 namespace {
@@ -41,11 +42,6 @@ void add_cut(const Panel& panel, const std::array<Vec3f, 3>& corners, uint32_t o
     if (cut.edge.a != cut.edge.b) found.push_back(cut);
 }
 
-bool is_cutout(const Scene& scene, const Surface& surface) {
-    return surface.material >= 0 &&
-           scene.materials[static_cast<size_t>(surface.material)].alpha_mode == AlphaMode::mask;
-}
-
 }  // namespace
 
 double MonitorSetup::largest_clearance() const {
@@ -80,10 +76,16 @@ Silhouettes cut_edges(const Scene& scene, const RayScene& rays, const Panel& pan
 
 MonitorSetup set_up(const Scene& scene, const RayScene& rays, const Silhouettes& silhouettes, size_t monitor,
                     const GatherSettings& settings) {
-    MonitorSetup setup{scene,       rays,
-                       silhouettes, monitor,
-                       settings,    panels_of(scene.monitors[monitor], rays),
-                       {},          MonitorSampler(scene.monitors[monitor])};
+    const Monitor& light = scene.monitors[monitor];
+    MonitorSetup setup{scene,
+                       rays,
+                       silhouettes,
+                       monitor,
+                       settings,
+                       tolerances(settings),
+                       panels_of(light, rays),
+                       {},
+                       MonitorSampler(light)};
     for (const Panel& panel : setup.panels) setup.cuts.push_back(cut_edges(scene, rays, panel, monitor));
     return setup;
 }

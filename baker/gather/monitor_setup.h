@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "baker/gather/cost.h"
 #include "baker/gather/panel.h"
 #include "baker/gather/settings.h"
 #include "baker/gather/silhouettes.h"
@@ -19,6 +20,7 @@ struct MonitorSetup {
     const Silhouettes& silhouettes;
     size_t monitor = 0;
     GatherSettings settings;
+    Tolerances limits;  ///< of these settings
     std::vector<Panel> panels;
     std::vector<Silhouettes> cuts;  ///< for each panel, the edges at which its clearance cuts triangles open
     MonitorSampler sampler;

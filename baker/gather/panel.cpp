@@ -18,7 +18,7 @@ Panel make_panel(const Polygon& polygon, const Vec3& scene_center) {
         const Vec3 place = polygon.corners[i] - scene_center;
         panel.places.push_back(place);
         panel.center += place / static_cast<double>(polygon.corners.size());
-        for (int c = 0; c < 3; ++c) magnitude = std::max(magnitude, std::abs(place[c]));
+        magnitude = std::max(magnitude, largest_component(place));
         const Vec3 side = polygon.corners[(i + 1) % polygon.corners.size()] - polygon.corners[i];
         if (glm::dot(side, side) > glm::dot(longest, longest)) longest = side;
     }

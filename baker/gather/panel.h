@@ -50,6 +50,9 @@ struct PanelView {
     double end = 1;                     ///< w at which occluders cease to count (end_of_rays)
     std::vector<Vec2> lit;              ///< of the panel above the horizon of the shading normal
     std::vector<Vec2> open;             ///< of that, above the surface itself: what can arrive
+
+    /// Does the surface itself hide nothing of what its shading normal admits?
+    bool is_open() const { return open == lit; }
 };
 
 /// Fills `view`; its arrays are reused. `lit` is empty where the point is behind the panel or sees none of it.

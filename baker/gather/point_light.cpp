@@ -21,14 +21,12 @@ PointVisibility by_one_ray(const MonitorSetup& setup, const PanelView& view) {
     result.rays = 1;
     const Vec3 target = view.panel->at(middle_of(view.open));
     if (setup.rays.is_occluded_until(view.end, view.origin, target, setup.monitor)) return result;
-    const bool is_whole = view.open.size() == view.lit.size() && view.open == view.lit;
     result.visibility =
-        is_whole ? 1 : std::min(1.0, contour_integral(view, view.open) / contour_integral(view, view.lit));
+        view.is_open() ? 1 : std::min(1.0, contour_integral(view, view.open) / contour_integral(view, view.lit));
     return result;
 }
 
-/// More lines until the estimate is within what the error leaves. The cheap ones may not be enough at a point whose
-/// silhouettes are few: then the exact way.
+/// More lines until the estimate is within what the error leaves.
 PointVisibility by_lines(const MonitorSetup& setup, uint64_t key, const Tolerances& limits, PointWorkspace& work) {
     PointVisibility best;
     size_t rays = 0;
@@ -53,20 +51,13 @@ PointVisibility by_lines(const MonitorSetup& setup, uint64_t key, const Toleranc
     return best;
 }
 
-double distance_to_segment(const Vec3& a, const Vec3& b) {
-    const Vec3 d = b - a;
-    const double length2 = glm::dot(d, d);
-    const double at = length2 > 0 ? std::clamp(-glm::dot(a, d) / length2, 0.0, 1.0) : 0;
-    return glm::length(a + at * d);
-}
-
 /// Can the edge's shadow pass over the panel within the texel? By bounding boxes of what moving by half a texel does;
 /// edges in the surface's own plane, or below it, only where they cross the texel.
 bool may_sweep(const PanelView& view, const Candidates& c, size_t i, const Vec3& geometric_normal, double half_texel) {
     const Vec3 a = Vec3(c.ax[i], c.ay[i], c.az[i]) - view.origin, b = Vec3(c.bx[i], c.by[i], c.bz[i]) - view.origin;
     const double level = 1e-3 * half_texel;
     if (glm::dot(geometric_normal, a) <= level && glm::dot(geometric_normal, b) <= level)
-        return distance_to_segment(a, b) < 1.5 * half_texel;  // half the diagonal, and a little
+        return distance_to_segment(Vec3(0), a, b) < 1.5 * half_texel;  // half the diagonal, and a little
     const Panel& panel = *view.panel;
     const Vec2 step = half_texel / Vec2(glm::length(panel.axis_s), glm::length(panel.axis_t));
     Vec2 low(INFINITY), high(-INFINITY);
@@ -94,7 +85,7 @@ Chosen choose(const MonitorSetup& setup, const PanelSight& sight, uint64_t key, 
         work.segments.count = 0;
     const size_t count = work.segments.count;
     if (count == 0) return {by_one_ray(setup, work.view), TexelMethod::ray};
-    const Tolerances limits = tolerances(settings);
+    const Tolerances& limits = setup.limits;
     const bool must_split = settings.is_exact || settings.method == Method::split;
     const double scan_cost = cost_of_scan(count, limits.first_lines);
     const bool is_free = settings.method == Method::automatic && !settings.is_exact;
@@ -128,7 +119,7 @@ PointLight light_at(const MonitorSetup& setup, const BlockSight& sight, const Su
         }
         light.has_near = light.has_near || std::ranges::any_of(panel_sight.near, [&](size_t edge) {
                              return may_sweep(work.view, panel_sight.candidates, edge, point.geometric_normal,
-                                              0.5 * work.texel_size);
+                                              0.5 * sight.texel_size);
                          });
         const Chosen chosen = choose(setup, panel_sight, hash(key, i), work);
         light.method = std::max(light.method, chosen.method);

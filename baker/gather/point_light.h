@@ -23,6 +23,7 @@ struct PointLight {
     bool has_failed = false;      ///< a cross-check disagreed: the value is not to be used
     bool is_dear = false;         ///< not evaluated: rays alone are cheaper for the texel
 
+    bool is_usable() const { return !has_failed && !is_dear; }
     double visibility() const { return unshadowed > 0 ? shadowed / unshadowed : 0; }
 };
 
@@ -31,7 +32,6 @@ struct PointWorkspace {
     Segments segments;
     SplitWorkspace split;
     ScanlineWorkspace scan;
-    double texel_size = 0;  ///< metres, of the texel at hand
 };
 
 /// `key`: of the random numbers. Points that the monitor does not reach get zeros. Deterministic.

@@ -39,10 +39,6 @@ PanelMesh panel_mesh(const Monitor& monitor) {
     return mesh;
 }
 
-bool is_cutout(const Scene& scene, const Surface& surface) {
-    return material_of(scene, surface).alpha_mode == AlphaMode::mask;
-}
-
 /// Of every monitor without a surface of its own; empty for the others.
 std::vector<PanelMesh> panel_meshes(const Scene& scene) {
     std::vector<PanelMesh> meshes(scene.monitors.size());

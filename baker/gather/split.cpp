@@ -145,8 +145,7 @@ PointVisibility split(const PanelView& view, const Segments& segments, const Ray
     }
     result.rays = work.fragments.size();
     // What the surface itself hides is missing from the fragments; what rounding dropped is too small to see.
-    const bool is_whole = view.open.size() == view.lit.size() && view.open == view.lit;
-    const double total = is_whole ? seen + blocked : all;
+    const double total = view.is_open() ? seen + blocked : all;
     result.visibility = total > 0 ? std::clamp(seen / total, 0.0, 1.0) : 0;
     return result;
 }

@@ -36,7 +36,7 @@ class Average {
         sum.has_failed = sum.has_failed || light.has_failed;
         sum.is_dear = sum.is_dear || light.is_dear;
     }
-    bool is_usable() const { return !result_.light.has_failed && !result_.light.is_dear; }
+    bool is_usable() const { return result_.light.is_usable(); }
     TexelLight value() const {
         TexelLight average = result_;
         average.light.error = average.light.unshadowed > 0 ? std::sqrt(squares_) / average.light.unshadowed : 0;
@@ -74,7 +74,7 @@ TexelLight by_many_points(const MonitorSetup& setup, const BlockSight& sight, co
                           PointWorkspace& work) {
     constexpr uint32_t most_points = 1024;
     const Scrambling seeds = scrambling(hash(key, 99));
-    const Tolerances limits = tolerances(setup.settings);
+    const Tolerances& limits = setup.limits;
     Average average;
     double before = -1;
     for (uint32_t i = 0; i < most_points; ++i) {
@@ -165,7 +165,7 @@ double rim_difference(const MonitorSetup& setup, const BlockSight& sight, const 
 
 TexelLight refined(const MonitorSetup& setup, const BlockSight& sight, const TexelSurface& surface,
                    const Beginning& from, uint64_t key, PointWorkspace& work) {
-    const Tolerances limits = tolerances(setup.settings);
+    const Tolerances& limits = setup.limits;
     const bool may_trace = setup.settings.method == Method::automatic;
     const double cost_of_point =
         cost_of_projecting(sight.candidates()) + cost_of_scan(work.segments.count, limits.first_lines);
@@ -174,7 +174,6 @@ TexelLight refined(const MonitorSetup& setup, const BlockSight& sight, const Tex
     double change_before = 1;
     for (int side = from.side; side <= 16; side *= 2) {
         TexelLight next = average_over_cells(setup, sight, surface, side, key, work);
-        const bool is_usable = !next.light.has_failed && !next.light.is_dear;
         const double change = std::abs(next.light.visibility() - best.light.visibility());
         next = with_cost_of(next, best);
         best = next;
@@ -182,7 +181,7 @@ TexelLight refined(const MonitorSetup& setup, const BlockSight& sight, const Tex
         // a fifteenth of two steps' change, of which half is believed.
         const double left_by_change = side == 4 && from.side == 4 ? change / 7.5 : change / 3;
         best.light.error = std::hypot(next.light.error, left_by_change);
-        if (!is_usable) break;
+        if (!best.light.is_usable()) break;
         // Two steps can agree by chance where a shadow's edge misses their points.
         const double by_neighbours = std::isfinite(from.footprint) ? from.footprint / (side * side)
                                                                    : (next.highest - next.lowest) / (4 * side * side);

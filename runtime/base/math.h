@@ -2,6 +2,7 @@
 // GLM under the names that Surimi uses. Geometry is double; what is stored in files and images is float.
 #pragma once
 
+#include <algorithm>
 #include <cfenv>
 #include <cmath>
 
@@ -20,10 +21,16 @@ using Vec4f = glm::vec4;
 
 inline constexpr double pi = 3.14159265358979323846;
 
+/// The largest of the components' sizes.
+template <class T>
+T largest_component(const glm::vec<3, T>& v) {
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
 /// `v` scaled to length 1, or `fallback` where `v` is zero or not finite. The scale by the largest component keeps
 /// lengths from 1e-300 to 1e300 from under- or overflowing when squared.
 inline Vec3 normalize_or(const Vec3& v, const Vec3& fallback) {
-    const double scale = std::max(std::abs(v.x), std::max(std::abs(v.y), std::abs(v.z)));
+    const double scale = largest_component(v);
     if (!(scale > 0) || !std::isfinite(scale)) return fallback;
     const Vec3 scaled = v / scale;
     return scaled / glm::length(scaled);
@@ -42,6 +49,14 @@ template <class R>
 R flagged(R result) {
     std::feraiseexcept(FE_INVALID);
     return result;
+}
+
+/// From a point to the segment from a to b; a and b may be one place.
+inline double distance_to_segment(const Vec3& point, const Vec3& a, const Vec3& b) {
+    const Vec3 edge = b - a;
+    const double length2 = glm::dot(edge, edge);
+    const double at = length2 > 0 ? std::clamp(glm::dot(point - a, edge) / length2, 0.0, 1.0) : 0;
+    return glm::length(point - (a + at * edge));
 }
 
 /// Luminance of a linear colour, Rec. 709.

@@ -31,9 +31,9 @@ SeenCylinder<T> seen_from(const Cylinder<T>& cylinder, const glm::vec<3, T>& poi
     using V = glm::vec<3, T>;
     SeenCylinder<T> seen;
     V a = cylinder.from - point, b = cylinder.to - point, axis = cylinder.to - cylinder.from;
-    const auto largest = [](const V& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); };
     if (!is_finite(a) || !is_finite(b) || !is_finite(axis) || !std::isfinite(cylinder.radius)) return flagged(seen);
-    const T scale = std::max({largest(a), largest(b), cylinder.radius}), axis_scale = largest(axis);
+    const T scale = std::max({largest_component(a), largest_component(b), cylinder.radius}),
+            axis_scale = largest_component(axis);
     if (!(cylinder.radius > 0) || !(axis_scale > 0)) return seen;
     a /= scale;
     b /= scale;

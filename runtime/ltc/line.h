@@ -21,9 +21,8 @@ T irradiance_of_line(const glm::vec<3, T>& from, const glm::vec<3, T>& to, const
                      const glm::vec<3, T>& normal) {
     using V = glm::vec<3, T>;
     V a = from - point, b = to - point, along = to - from;
-    const auto largest = [](const V& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); };
     if (!is_finite(a) || !is_finite(b) || !is_finite(along) || !is_finite(normal)) return flagged(T(0));
-    const T scale = std::max(largest(a), largest(b)), along_scale = largest(along);
+    const T scale = std::max(largest_component(a), largest_component(b)), along_scale = largest_component(along);
     if (!(scale > 0) || !(along_scale > 0)) return 0;
     a /= scale;
     b /= scale;

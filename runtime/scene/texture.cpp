@@ -76,4 +76,8 @@ const Material& material_of(const Scene& scene, const Surface& surface) {
     return surface.material < 0 ? standard : scene.materials[static_cast<size_t>(surface.material)];
 }
 
+bool is_cutout(const Scene& scene, const Surface& surface) {
+    return material_of(scene, surface).alpha_mode == AlphaMode::mask;
+}
+
 }  // namespace surimi

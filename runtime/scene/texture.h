@@ -19,4 +19,7 @@ double alpha_at(const Scene& scene, const Material& material, const SurfacePoint
 /// glTF's default material, for surfaces without one.
 const Material& material_of(const Scene& scene, const Surface& surface);
 
+/// Is the surface alpha-masked, so that light may come through holes?
+bool is_cutout(const Scene& scene, const Surface& surface);
+
 }  // namespace surimi

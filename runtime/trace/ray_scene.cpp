@@ -17,10 +17,6 @@ namespace {
 constexpr unsigned ordinary_mask = 1u << 3;  // bits 0 to 2 belong to the monitors
 constexpr unsigned everything = 0xfu;
 
-double largest_component(const Vec3& v) {
-    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-}
-
 }  // namespace
 
 struct RayScene::State {
@@ -74,9 +70,7 @@ void RayScene::State::attach(const std::vector<Vec3>& positions, const std::vect
     for (const auto& t : triangles)
         for (const uint32_t corner : t) *indices++ = corner;
     rtcSetGeometryMask(geometry, mask);
-    const bool is_cutout =
-        id < scene.surfaces.size() && material_of(scene, scene.surfaces[id]).alpha_mode == AlphaMode::mask;
-    if (is_cutout) {
+    if (id < scene.surfaces.size() && is_cutout(scene, scene.surfaces[id])) {
         cutouts[id] = {&scene, id};
         rtcSetGeometryUserData(geometry, &cutouts[id]);
         rtcSetGeometryOccludedFilterFunction(geometry, filter);

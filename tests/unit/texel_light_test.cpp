@@ -41,7 +41,6 @@ struct Sight {
             for (const double z : {-2.0, 2.0}) corners.push_back(Vec3(x, 0, z) - rays.center());
         for (Vec3& corner : corners) corner.y += 1e-5;
         look_from(sight, setup, corners, 0.25);
-        work.texel_size = 0.25;
     }
     TexelSurface surface(size_t x, size_t y) const {
         return {stage.scene, stage.atlas, stage.texels, stage.texels.texels[y * size + x]};
