@@ -101,24 +101,40 @@ class BlockLighter {
     void light_by_rays() {
         const double error = setup_.limits.all_by_rays;
         for (size_t i = 0; i < texels_.size(); ++i) {
-            double unshadowed = unshadowed_at(setup_, block_.centers[i]);
-            if (!(unshadowed > 0) && is_partly_lit(setup_, block_.texels[i])) unshadowed = cell_average(i);
-            write(i, unshadowed > 0 ? by_rays(setup_, block_.texels[i], unshadowed, error, key(i)) : TexelLight{});
+            const double unshadowed = unshadowed_at(setup_, block_.centers[i]);
+            if (unshadowed > 0)
+                write(i, by_rays(setup_, block_.texels[i], unshadowed, error, key(i)));
+            else
+                write(i, is_partly_lit(setup_, block_.texels[i]) ? average_by_rays(i, error) : TexelLight{});
         }
     }
 
-    double cell_average(size_t i) const {
+    /// Of a texel whose centre is not lit: E (M1) on average over its middles of cells.
+    double average_unshadowed(size_t i) const {
+        constexpr int side = 4;
         double sum = 0;
-        for (const double u : {0.25, 0.75})
-            for (const double v : {0.25, 0.75}) sum += unshadowed_at(setup_, block_.texels[i].sample(u, v)) / 4;
-        return sum;
+        for (int k = 0; k < side * side; ++k)
+            sum += unshadowed_at(setup_, block_.texels[i].sample((k % side + 0.5) / side, (k / side + 0.5) / side));
+        return sum / (side * side);
+    }
+
+    TexelLight average_by_rays(size_t i, double error) const {
+        const double unshadowed = average_unshadowed(i);
+        return unshadowed > 0 ? by_rays(setup_, block_.texels[i], unshadowed, error, key(i)) : TexelLight{};
+    }
+
+    TexelLight hidden(size_t i) const {
+        TexelLight texel{work_.centers[i], 1};
+        if (!(texel.light.unshadowed > 0)) texel.light.unshadowed = average_unshadowed(i);
+        texel.light.method = TexelMethod::certificate;
+        return texel;
     }
 
     void light_centers() {
         work_.centers.clear();
         work_.visibilities.clear();
         for (size_t i = 0; i < texels_.size(); ++i) {
-            work_.centers.push_back(light_at(setup_, work_.sight, block_.centers[i], key(i), work_.point));
+            work_.centers.push_back(light_at(setup_, work_.sight, block_.centers[i], {key(i)}, work_.point));
             const PointLight& light = work_.centers.back();
             // What is not known makes the differences with it unknown.
             const bool is_known = light.unshadowed > 0 && light.is_usable();
@@ -145,19 +161,25 @@ class BlockLighter {
 
     TexelLight finish(size_t i, double error) {
         const PointLight& center = work_.centers[i];
-        if (center.unshadowed > 0 && work_.sight.is_hidden()) return {center, 1};
-        const TexelSurface& surface = block_.texels[i];
-        const auto refine = [&] {
-            const int side = block_.is_curved[i] || center.has_near || std::isinf(error) ? 4 : 2;
-            return refined(setup_, work_.sight, surface, {center, error, side, block_.is_border[i] != 0}, key(i),
-                           work_.point);
-        };
-        if (!(center.unshadowed > 0)) return is_partly_lit(setup_, surface) ? refine() : TexelLight{center, 1};
+        if (work_.sight.is_hidden())
+            return center.unshadowed > 0 || is_partly_lit(setup_, block_.texels[i]) ? hidden(i) : TexelLight{center, 1};
+        TexelSurface surface = block_.texels[i];
+        const auto cut = cut_at_contacts(setup_.rays, block_.around, surface);
         const bool may_trace = setup_.settings.method == Method::automatic;
-        if (may_trace && (block_.is_pierced[i] || center.is_self_hidden))
+        const auto refine = [&] {
+            const bool is_unlike_center = cut.is_cut || block_.is_curved[i] || center.has_near || std::isinf(error);
+            const bool has_rim = block_.is_border[i] || center.has_near || cut.is_cut;
+            const Beginning from{center, error, has_rim, is_unlike_center, cut.is_cut};
+            return refined(setup_, work_.sight, surface, from, key(i), work_.point);
+        };
+        if (!(center.unshadowed > 0)) {
+            if (!is_partly_lit(setup_, surface)) return {center, 1};
+            return may_trace ? average_by_rays(i, setup_.limits.monte_carlo) : refine();
+        }
+        if (may_trace && (!cut.is_whole || center.is_self_hidden))
             return by_rays(setup_, surface, center.unshadowed, setup_.limits.monte_carlo, key(i));
-        if (!center.is_usable() || block_.is_curved[i] || block_.is_pierced[i] || center.has_near ||
-            center.is_self_hidden || block_.is_border[i])
+        if (!center.is_usable() || block_.is_curved[i] || cut.is_cut || center.has_near || center.is_self_hidden ||
+            block_.is_border[i])
             return refine();
         if (error > setup_.limits.footprint) return refine();
         TexelLight texel{center, 1};

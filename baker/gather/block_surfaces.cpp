@@ -41,20 +41,6 @@ bool is_curved(const TexelSurface& surface, const SurfacePoint& center) {
     return is_curved;
 }
 
-/// Does something stand on the texel or come through it? Rays from its centre to its corners, just above the surface.
-bool is_pierced(const TexelSurface& surface, const SurfacePoint& center, const RayScene& rays) {
-    const Vec3 origin = rays.ray_origin(center) - rays.center();
-    bool is_pierced = false;
-    RayPacket packet;
-    surface.for_each_corner([&](const SurfacePoint& corner) {
-        packet.add(origin, rays.ray_origin(corner) - rays.center(), 1);
-        if (packet.size < RayPacket::capacity) return;
-        is_pierced = is_pierced || rays.occluded(packet, RayScene::no_monitor) != 0;
-        packet.size = 0;
-    });
-    return is_pierced || (packet.size > 0 && rays.occluded(packet, RayScene::no_monitor) != 0);
-}
-
 }  // namespace
 
 BlockSurfaces block_surfaces(const Scene& scene, const Atlas& atlas, const Texels& texels, const RayScene& rays,
@@ -79,12 +65,12 @@ BlockSurfaces block_surfaces(const Scene& scene, const Atlas& atlas, const Texel
             normals += corner.geometric_normal;
         });
         block.is_curved.push_back(is_curved(surface, block.centers.back()));
-        block.is_pierced.push_back(is_pierced(surface, block.centers.back(), rays));
         // A texel of one plane may be judged at a place between its pieces.
         places.push_back(rays.ray_origin(block.centers.back()) - rays.center());
         largest = std::max(largest, surface.area());
     }
     block.corners = box_around(places, normals);
+    block.around = triangles_around(rays, places);
     block.texel_size = std::sqrt(largest);
     return block;
 }

@@ -21,6 +21,13 @@ Tolerances tolerances(const GatherSettings& settings);
 
 inline constexpr int most_lines = 1024;
 
+/// Of one point, where so many are averaged.
+struct LineLimits {
+    double error = 0;  ///< estimate at which it stops
+    int first = 64;    ///< lines to begin with
+};
+LineLimits lines_for(const Tolerances& limits, double averaged);
+
 /// Nanoseconds for one texel or point, with the machine of docs/decisions.md.
 double cost_of_projecting(size_t candidates);
 double cost_of_split(size_t segments);

@@ -172,7 +172,7 @@ IrradianceEstimate irradiance_at(const Scene& scene, const RayScene& rays, const
     BlockWorkspace work;
     const Vec3 origin = rays.ray_origin(point) - rays.center();
     look_from(work.sight, setup, std::span(&origin, 1), 0);
-    const PointLight light = light_at(setup, work.sight, point, settings.seed, work.point);
+    const PointLight light = light_at(setup, work.sight, point, {settings.seed}, work.point);
     if (segments) *segments = light.segments;
     return {static_cast<float>(light.unshadowed), static_cast<float>(light.shadowed),
             static_cast<float>(light.has_failed ? 1 : light.error), light.method};

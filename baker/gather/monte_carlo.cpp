@@ -16,15 +16,16 @@ constexpr size_t first_round = 64;
 constexpr double least_gain = 0.354;  // 8^-1/2
 constexpr size_t hopeless = 4096;     // samples without weight after which a texel counts as unlit
 
-/// Sums over a contiguous 64th of the samples, which is a net of its own, as eight of them are (M52).
+/// Sums over a contiguous part of the samples, which is a net of its own, as eight of them are (M52).
 struct Part {
     double all = 0, blocked = 0;  // weights
 };
-constexpr size_t part_count = 64, parts_of_eighth = part_count / 8;
+constexpr size_t fewest_parts = 64, most_parts = 96, parts_of_run = 8;
 
 /// The samples of one texel so far.
 struct Samples {
-    std::array<Part, part_count> parts;
+    std::array<Part, most_parts> parts;
+    size_t part_size = 1;
     size_t count = 0;
     size_t rays = 0;
     size_t free = 0;     // samples with weight that nothing blocks
@@ -76,12 +77,10 @@ void place(const MonteCarloTask& task, const TexelSurface& surface, SampleLanes&
     }
 }
 
-/// Enters the first `count` of the batch's samples, and traces those that need it. There will be `total` samples.
-void enter(const MonteCarloTask& task, const SampleLanes& lanes, std::array<size_t, 2> count_and_total,
-           Waiting& waiting, Samples& samples) {
-    const auto [count, total] = count_and_total;
+/// Enters the first `count` of the batch's samples, and traces those that need it.
+void enter(const MonteCarloTask& task, const SampleLanes& lanes, size_t count, Waiting& waiting, Samples& samples) {
     for (size_t i = 0; i < count; ++i) {
-        const auto part = static_cast<uint8_t>(samples.count++ * part_count / total);
+        const auto part = static_cast<uint8_t>(samples.count++ / samples.part_size);
         const float weight = lanes.weight[i];
         if (!(weight > 0)) continue;
         samples.squares += static_cast<double>(weight) * static_cast<double>(weight);
@@ -118,16 +117,17 @@ void extend(const MonteCarloTask& task, const TexelSurface& surface, const Scram
         scramble({digits(0), digits(1), digits(2), digits(3)}, seeds, lanes);
         place(task, surface, lanes);
         weigh(task.clearance, task.sampler.is_two_sided(), lanes);
-        enter(task, lanes, {some, total}, waiting, samples);
+        enter(task, lanes, some, waiting, samples);
     }
     if (waiting.packet.size > 0) trace(task, waiting, samples);
 }
 
-/// Room for as many samples again: parts become parts of the doubled number.
+/// Twice as many samples a part: two parts each become one.
 void merge_parts(Samples& samples) {
-    for (size_t i = 0; i < part_count; ++i) {
+    samples.part_size *= 2;
+    for (size_t i = 0; i < most_parts; ++i) {
         const size_t j = 2 * i;
-        samples.parts[i] = j < part_count ? Part{samples.parts[j].all + samples.parts[j + 1].all,
+        samples.parts[i] = j < most_parts ? Part{samples.parts[j].all + samples.parts[j + 1].all,
                                                  samples.parts[j].blocked + samples.parts[j + 1].blocked}
                                           : Part{};
     }
@@ -135,13 +135,15 @@ void merge_parts(Samples& samples) {
 
 /// Variance of the sum of `blocked`, in proportion to `share` of `all`, if runs of `length` parts were independent.
 double variance_of_runs(const Samples& samples, double share, size_t length) {
+    const size_t parts = (samples.count + samples.part_size - 1) / samples.part_size;
     double squares = 0;
-    for (size_t i = 0; i < part_count; i += length) {
+    for (size_t i = 0; i < parts; i += length) {
         double deviation = 0;
-        for (size_t k = i; k < i + length; ++k) deviation += samples.parts[k].blocked - samples.parts[k].all * share;
+        for (size_t k = i; k < std::min(i + length, parts); ++k)
+            deviation += samples.parts[k].blocked - samples.parts[k].all * share;
         squares += deviation * deviation;
     }
-    const auto runs = static_cast<double>(part_count / length);
+    const double runs = std::max(2.0, static_cast<double>(parts) / static_cast<double>(length));
     return squares * runs / (runs - 1);
 }
 
@@ -156,7 +158,7 @@ MonteCarloEstimate estimate(const Samples& samples) {
     result.visibility = 1 - share;
     // Nets eight times as large have a smaller variance than independent samples would have. The next step of eight
     // gains as much again; half of that (of its logarithm) is believed, since eight nets say little.
-    const double fine = variance_of_runs(samples, share, 1), coarse = variance_of_runs(samples, share, parts_of_eighth);
+    const double fine = variance_of_runs(samples, share, 1), coarse = variance_of_runs(samples, share, parts_of_run);
     const double gain = fine > 0 ? std::sqrt(std::clamp(coarse / fine, least_gain, 1.0)) : 1;
     // What no sample has met may be there, about as much as a sample stands for where most light comes from.
     const double unseen = samples.squares / all;
@@ -181,12 +183,20 @@ MonteCarloEstimate monte_carlo(const MonteCarloTask& task, const TexelSurface& s
     };
     const size_t most = bounded(task.samples > 0 ? task.samples : task.most_samples);
     Samples samples;
-    for (size_t count = task.samples > 0 ? most : std::min(first_round, most);; count *= 2) {
+    if (task.samples > 0) {
+        while (samples.part_size * fewest_parts < most) samples.part_size *= 2;
+        extend(task, surface, seeds, most, samples);
+        return estimate(samples);
+    }
+    // 64, 96, 128, 192 and so on: half as much again, and then to the next power of two.
+    for (size_t count = std::min(first_round, most);;) {
         extend(task, surface, seeds, count, samples);
         const MonteCarloEstimate result = estimate(samples);
         const bool is_hopeless = !result.is_lit && count >= hopeless;
-        if (result.error <= task.error || 2 * count > most || is_hopeless) return result;
-        merge_parts(samples);
+        const bool is_full = samples.part_size * most_parts <= count;
+        count = samples.part_size * (is_full ? 2 * fewest_parts : most_parts);
+        if (result.error <= task.error || count > most || is_hopeless) return result;
+        if (is_full) merge_parts(samples);
     }
 }
 

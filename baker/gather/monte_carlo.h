@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "baker/texel/texels.h"
+#include "baker/texel/texel_surface.h"
 #include "runtime/light/monitor.h"
 #include "runtime/light/sample.h"
 #include "runtime/trace/ray_scene.h"

@@ -2,8 +2,10 @@
 #include "baker/gather/panel.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
+#include "baker/texel/polygon.h"
 #include "runtime/ltc/polygon.h"
 
 namespace surimi {
@@ -75,18 +77,6 @@ double end_of_rays(const Panel& panel, const Vec3& origin) {
 double unshadowed_from(const Panel& panel, const Vec3& position, const Vec3& normal) {
     if (!panel.is_before(position)) return 0;
     return irradiance_of_polygon<double>(panel.places, position, normal);
-}
-
-void cut(std::span<const Vec2> polygon, const Vec3& line, std::vector<Vec2>& part) {
-    part.clear();
-    const auto side = [&](const Vec2& p) { return p.x * line.x + p.y * line.y + line.z; };
-    for (size_t i = 0; i < polygon.size(); ++i) {
-        const Vec2 &a = polygon[i], &b = polygon[i + 1 < polygon.size() ? i + 1 : 0];
-        const double da = side(a), db = side(b);
-        if (da >= 0) part.push_back(a);
-        if ((da > 0 && db < 0) || (da < 0 && db > 0)) part.push_back(a + (b - a) * (da / (da - db)));
-    }
-    if (part.size() < 3) part.clear();
 }
 
 void look_at(PanelView& view, const Panel& panel, const Vec3& origin, const Vec3& normal,

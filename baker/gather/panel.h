@@ -61,7 +61,4 @@ void look_at(PanelView& view, const Panel& panel, const Vec3& origin, const Vec3
 /// Irradiance / (1/2), by (M1), of a convex polygon of the panel that lies above the view's horizon: for ratios.
 double contour_integral(const PanelView& view, std::span<const Vec2> polygon);
 
-/// The part of a convex polygon where x * line.x + y * line.y + line.z >= 0, into `part` (Sutherland and Hodgman 1974).
-void cut(std::span<const Vec2> polygon, const Vec3& line, std::vector<Vec2>& part);
-
 }  // namespace surimi

@@ -27,11 +27,11 @@ PointVisibility by_one_ray(const MonitorSetup& setup, const PanelView& view) {
 }
 
 /// More lines until the estimate is within what the error leaves.
-PointVisibility by_lines(const MonitorSetup& setup, uint64_t key, const Tolerances& limits, PointWorkspace& work) {
+PointVisibility by_lines(const MonitorSetup& setup, uint64_t key, const LineLimits& limits, PointWorkspace& work) {
     PointVisibility best;
     size_t rays = 0;
-    for (int lines = limits.first_lines;; lines *= 2) {
-        const bool is_first = lines == limits.first_lines;
+    for (int lines = limits.first;; lines *= 2) {
+        const bool is_first = lines == limits.first;
         const ScanlineTask task{setup.rays,
                                 setup.monitor,
                                 lines,
@@ -40,9 +40,9 @@ PointVisibility by_lines(const MonitorSetup& setup, uint64_t key, const Toleranc
                                 key};
         best = scan(work.view, work.segments, task, work.scan);
         rays += best.rays;
-        if (!best.is_consistent || best.error <= limits.lines || lines >= most_lines) break;
+        if (!best.is_consistent || best.error <= limits.error || lines >= most_lines) break;
         // The error falls with lines^-1.5: steps that cannot reach the limit are left out.
-        while (lines < most_lines / 2 && best.error > limits.lines * 5) {
+        while (lines < most_lines / 2 && best.error > limits.error * 5) {
             best.error /= 2.8;
             lines *= 2;
         }
@@ -77,7 +77,7 @@ struct Chosen {
     bool is_dear = false;
 };
 
-Chosen choose(const MonitorSetup& setup, const PanelSight& sight, uint64_t key, PointWorkspace& work) {
+Chosen choose(const MonitorSetup& setup, const PanelSight& sight, const PointTask& task, PointWorkspace& work) {
     const GatherSettings& settings = setup.settings;
     if (sight.candidates.count > 0)
         project(sight.candidates, sight.first_cut, work.view, work.segments);
@@ -87,20 +87,21 @@ Chosen choose(const MonitorSetup& setup, const PanelSight& sight, uint64_t key, 
     if (count == 0) return {by_one_ray(setup, work.view), TexelMethod::ray};
     const Tolerances& limits = setup.limits;
     const bool must_split = settings.is_exact || settings.method == Method::split;
-    const double scan_cost = cost_of_scan(count, limits.first_lines);
+    const LineLimits lines = lines_for(limits, task.averaged);
+    const double scan_cost = cost_of_scan(count, lines.first);
     const bool is_free = settings.method == Method::automatic && !settings.is_exact;
     const double split_cost = cost_of_split(count);
     if (is_free && std::min(scan_cost, split_cost) > cost_of_monte_carlo(limits.monte_carlo))
         return {{}, TexelMethod::none, true};
     if (must_split || (is_free && split_cost <= scan_cost))
         return {split(work.view, work.segments, setup.rays, setup.monitor, work.split), TexelMethod::split};
-    return {by_lines(setup, key, limits, work), TexelMethod::scanline};
+    return {by_lines(setup, task.key, lines, work), TexelMethod::scanline};
 }
 
 }  // namespace
 
-PointLight light_at(const MonitorSetup& setup, const BlockSight& sight, const SurfacePoint& point, uint64_t key,
-                    PointWorkspace& work) {
+PointLight light_at(const MonitorSetup& setup, const BlockSight& sight, const SurfacePoint& point,
+                    const PointTask& task, PointWorkspace& work) {
     PointLight light;
     const Vec3 position = point.position - setup.rays.center();
     const Vec3 origin = setup.rays.ray_origin(point) - setup.rays.center();
@@ -121,7 +122,7 @@ PointLight light_at(const MonitorSetup& setup, const BlockSight& sight, const Su
                              return may_sweep(work.view, panel_sight.candidates, edge, point.geometric_normal,
                                               0.5 * sight.texel_size);
                          });
-        const Chosen chosen = choose(setup, panel_sight, hash(key, i), work);
+        const Chosen chosen = choose(setup, panel_sight, {hash(task.key, i), task.averaged}, work);
         light.method = std::max(light.method, chosen.method);
         light.is_dear = chosen.is_dear;
         light.has_failed = light.has_failed || !chosen.visibility.is_consistent;

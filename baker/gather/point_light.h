@@ -34,8 +34,13 @@ struct PointWorkspace {
     ScanlineWorkspace scan;
 };
 
-/// `key`: of the random numbers. Points that the monitor does not reach get zeros. Deterministic.
-PointLight light_at(const MonitorSetup& setup, const BlockSight& sight, const SurfacePoint& point, uint64_t key,
-                    PointWorkspace& work);
+struct PointTask {
+    uint64_t key = 0;     ///< of the random numbers
+    double averaged = 1;  ///< so many points of equal weight are averaged: each may be off by the root of it more
+};
+
+/// Points that the monitor does not reach get zeros. Deterministic.
+PointLight light_at(const MonitorSetup& setup, const BlockSight& sight, const SurfacePoint& point,
+                    const PointTask& task, PointWorkspace& work);
 
 }  // namespace surimi

@@ -27,14 +27,19 @@ class Average {
         const double error = weight * light.unshadowed * light.error;
         squares_ += error * error;
         if (light.unshadowed > 0) {
-            result_.lowest = std::min(result_.lowest, light.visibility());
-            result_.highest = std::max(result_.highest, light.visibility());
+            lowest_ = std::min(lowest_, light.visibility());
+            highest_ = std::max(highest_, light.visibility());
         }
         sum.method = std::max(sum.method, light.method);
         sum.rays += light.rays;
         sum.segments += light.segments;
         sum.has_failed = sum.has_failed || light.has_failed;
         sum.is_dear = sum.is_dear || light.is_dear;
+    }
+    /// The points since the last one lay on one piece of this share.
+    void end_piece(double share) {
+        result_.spread += share * std::max(0.0, highest_ - lowest_);
+        lowest_ = 1, highest_ = 0;
     }
     bool is_usable() const { return result_.light.is_usable(); }
     TexelLight value() const {
@@ -48,10 +53,29 @@ class Average {
   private:
     TexelLight result_;
     double squares_ = 0, weight_ = 0;
+    double lowest_ = 1, highest_ = 0;  // visibility of a piece's points
 };
 
-/// Texels of more pieces than this are sampled as a whole: no piece of them matters much.
-constexpr size_t most_pieces = 12;
+/// Texels of more pieces than this are left to rays: the few that most light comes to could go unseen.
+constexpr size_t most_pieces = 24;
+
+/// Cells a side of a piece that has this share of a texel with side x side cells. Pieces that matter get more with
+/// every step, or two steps would agree about them whatever they are like.
+int cells_of(double share, int side) {
+    const int least = share > 0.03 ? side / 2 : 1;
+    return std::max(least, static_cast<int>(std::ceil(side * std::sqrt(share) - 0.3)));
+}
+
+/// Points that average_over_cells takes.
+double points_of(const TexelSurface& surface, int side) {
+    if (surface.pieces().size() > most_pieces) return side * side;
+    double sum = 0;
+    for (const TexelSurface::Piece& piece : surface.pieces()) {
+        const int cells = cells_of(surface.share_of(piece), side);
+        sum += cells * cells;
+    }
+    return sum;
+}
 
 /// Calls visit(middle) for side x side cells of the unit square.
 template <class Visit>
@@ -79,7 +103,7 @@ TexelLight by_many_points(const MonitorSetup& setup, const BlockSight& sight, co
     double before = -1;
     for (uint32_t i = 0; i < most_points; ++i) {
         const auto r = scrambled(sobol::point(i), seeds);
-        average.add(light_at(setup, sight, surface.sample(r[0], r[1]), hash(key, 100 + i), work), 1);
+        average.add(light_at(setup, sight, surface.sample(r[0], r[1]), {hash(key, 100 + i), 64}, work), 1);
         if (i + 1 != 64 && i + 1 != 256 && i + 1 != most_points) continue;
         TexelLight value = average.value();
         const double change = before < 0 ? 1 : std::abs(value.light.visibility() - before);
@@ -96,16 +120,18 @@ TexelLight average_over_cells(const MonitorSetup& setup, const BlockSight& sight
                               uint64_t key, PointWorkspace& work) {
     Average average;
     uint64_t number = hash(key, static_cast<uint64_t>(side));
+    const double points = points_of(surface, side);
     const auto add = [&](const SurfacePoint& point, double weight) {
-        if (average.is_usable()) average.add(light_at(setup, sight, point, ++number, work), weight);
+        if (average.is_usable()) average.add(light_at(setup, sight, point, {++number, points}, work), weight);
     };
     if (surface.pieces().size() > most_pieces) {
         for_each_cell(side, [&](const Vec2& cell) { add(surface.sample(cell.x, cell.y), 1); });
+        average.end_piece(1);
         return average.value();
     }
     for (const TexelSurface::Piece& piece : surface.pieces()) {
         const double share = surface.share_of(piece);
-        const int cells = std::max(1, static_cast<int>(std::ceil(side * std::sqrt(share) - 0.3)));
+        const int cells = cells_of(share, side);
         for_each_cell(cells, [&](Vec2 cell) {
             if (!piece.is_square) {  // evenly by area (M8); one cell has its middle at the centroid
                 cell.x = cells == 1 ? 2.0 / 3 : std::sqrt(cell.x);
@@ -113,13 +139,36 @@ TexelLight average_over_cells(const MonitorSetup& setup, const BlockSight& sight
             }
             add(TexelSurface::point_of(piece, cell), share / (cells * cells));
         });
+        average.end_piece(share);
     }
     return average.value();
 }
 
+namespace {
+
+/// Of the monitor no more than what some place of the texel has above its horizon, and a little around it: of a monitor
+/// that just rises over the horizon most samples would be lost.
+MonitorSampler sampler_above_horizon(const MonitorSetup& setup, const TexelSurface& surface) {
+    const Vec3 normal = surface.center().normal;
+    double lowest = INFINITY, deviation = 0, farthest = 0;
+    surface.for_each_corner([&](const SurfacePoint& corner) {
+        lowest = std::min(lowest, glm::dot(normal, corner.position));
+        deviation = std::max(deviation, glm::length(corner.normal - normal));
+        for (const Polygon& panel : setup.light().panels)
+            for (const Vec3& place : panel.corners) farthest = std::max(farthest, glm::length(place - corner.position));
+    });
+    if (deviation > 0.5) return setup.sampler;
+    // dot(n, q - p) <= dot(normal, q) - lowest + |n - normal| |q - p|, and half an ulp of coordinates for what is flat.
+    const double rounding = 1e-7 * (farthest + largest_component(surface.center().position));
+    return setup.sampler.above(normal, lowest - deviation * farthest - rounding);
+}
+
+}  // namespace
+
 TexelLight by_rays(const MonitorSetup& setup, const TexelSurface& surface, double unshadowed, double error,
                    uint64_t key) {
-    MonteCarloTask task{setup.rays, setup.sampler, sample_points()};
+    const MonitorSampler sampler = sampler_above_horizon(setup, surface);
+    MonteCarloTask task{setup.rays, sampler, sample_points()};
     task.monitor = setup.monitor;
     task.clearance = setup.largest_clearance();
     task.error = error;
@@ -138,27 +187,34 @@ TexelLight by_rays(const MonitorSetup& setup, const TexelSurface& surface, doubl
 
 namespace {
 
-/// How much the rim of a texel's largest piece differs from what its middle says: the mean of the corners is that of a
-/// plane wherever light is smooth, and not where a shadow lies along a side. `spent` gets the points.
+/// How much the rims of a texel's larger pieces differ from what their middles say: the mean of the corners is that of
+/// a plane wherever light is smooth, and not where a shadow lies along a side. `spent` gets the points.
 double rim_difference(const MonitorSetup& setup, const BlockSight& sight, const TexelSurface& surface, uint64_t key,
                       PointWorkspace& work, TexelLight& spent) {
-    const TexelSurface::Piece* largest = &surface.pieces().front();
-    for (const TexelSurface::Piece& piece : surface.pieces())
-        if (surface.share_of(piece) > surface.share_of(*largest)) largest = &piece;
-    const Vec2 middle = largest->is_square ? Vec2(0.5) : Vec2(2.0 / 3, 1.0 / 3);
-    const auto visibility_at = [&](const Vec2& uv) {
-        const PointLight light = light_at(setup, sight, TexelSurface::point_of(*largest, uv), hash(key, 50), work);
-        ++spent.points;
-        spent.light.rays += light.rays;
-        spent.light.segments += light.segments;
-        return light.visibility();
-    };
-    // A little inside: corners themselves lie on what stands there.
-    const std::array<Vec2, 4> corners = {Vec2(0, 0), Vec2(1, 0), Vec2(1, 1), Vec2(0, 1)};
-    const size_t count = largest->is_square ? 4 : 3;
+    // A little inside, since corners themselves lie on what stands there; what is narrower is below the error.
+    const double inset = std::min(0.04, setup.settings.error);
+    constexpr double large = 0.05;
     double sum = 0;
-    for (size_t i = 0; i < count; ++i) sum += visibility_at(glm::mix(corners[i], middle, 0.04));
-    return std::abs(sum / static_cast<double>(count) - visibility_at(middle));
+    for (const TexelSurface::Piece& piece : surface.pieces()) {
+        const double share = surface.share_of(piece);
+        if (share < large) continue;
+        const auto visibility_at = [&](const Vec2& uv) {
+            const PointLight light =
+                light_at(setup, sight, TexelSurface::point_of(piece, uv), {hash(key, 50), 5}, work);
+            ++spent.points;
+            spent.light.rays += light.rays;
+            spent.light.segments += light.segments;
+            return light.visibility();
+        };
+        const Vec2 middle = piece.is_square ? Vec2(0.5) : Vec2(2.0 / 3, 1.0 / 3);
+        const std::array<Vec2, 4> corners = {Vec2(0, 0), Vec2(1, 0), Vec2(1, 1), Vec2(0, 1)};
+        const size_t count = piece.is_square ? 4 : 3;
+        double mean = 0;
+        for (size_t i = 0; i < count; ++i)
+            mean += visibility_at(glm::mix(corners[i], middle, inset)) / static_cast<double>(count);
+        sum += share * std::abs(mean - visibility_at(middle));
+    }
+    return sum;
 }
 
 }  // namespace
@@ -169,30 +225,39 @@ TexelLight refined(const MonitorSetup& setup, const BlockSight& sight, const Tex
     const bool may_trace = setup.settings.method == Method::automatic;
     const double cost_of_point =
         cost_of_projecting(sight.candidates()) + cost_of_scan(work.segments.count, limits.first_lines);
+    constexpr int first_side = 2;
+    const auto are_rays_cheaper_than = [&](double points) {
+        return may_trace && points * cost_of_point > cost_of_average_by_rays(limits.monte_carlo);
+    };
     TexelLight best{from.center, 1};
-    const double rim = from.is_border ? rim_difference(setup, sight, surface, key, work, best) : 0;
-    double change_before = 1;
-    for (int side = from.side; side <= 16; side *= 2) {
+    double rim = 0, change_before = 1;
+    // Where what is known makes it likely that rays will be needed, they are taken at once.
+    const double at_least = points_of(surface, from.is_unlike_center ? 2 * first_side : first_side);
+    const bool is_hopeless = are_rays_cheaper_than(from.has_rim ? at_least + 5 : at_least) ||
+                             (may_trace && surface.pieces().size() > most_pieces);
+    if (from.has_rim && !is_hopeless) rim = rim_difference(setup, sight, surface, key, work, best);
+    for (int side = first_side; side <= 16 && !is_hopeless && !are_rays_cheaper_than(points_of(surface, side));
+         side *= 2) {
         TexelLight next = average_over_cells(setup, sight, surface, side, key, work);
         const double change = std::abs(next.light.visibility() - best.light.visibility());
         next = with_cost_of(next, best);
         best = next;
-        // Halving the cells leaves a quarter of the error where light is smooth: a third of what the step changed, and
-        // a fifteenth of two steps' change, of which half is believed.
-        const double left_by_change = side == 4 && from.side == 4 ? change / 7.5 : change / 3;
+        // Halving the cells leaves a quarter of the error where light is smooth: a third of what the step changed.
+        const double left_by_change = change / 3;
         best.light.error = std::hypot(next.light.error, left_by_change);
         if (!best.light.is_usable()) break;
+        if (from.is_unlike_center && side == first_side) continue;
         // Two steps can agree by chance where a shadow's edge misses their points.
-        const double by_neighbours = std::isfinite(from.footprint) ? from.footprint / (side * side)
-                                                                   : (next.highest - next.lowest) / (4 * side * side);
+        const double at_center = std::isfinite(from.footprint) && !from.is_cut ? from.footprint : next.spread / 4;
+        const double by_neighbours = at_center / (side * side);
         // A strip along a side that the cells' middles miss is half a cell wide at most.
         const double expected = std::max(by_neighbours, rim / (2 * side));
         if (std::max(left_by_change, expected) <= limits.footprint) return best;
-        if (side > from.side && change > 0.6 * change_before) break;  // not smooth at all
+        if (side > first_side && change > 0.6 * change_before) break;  // not smooth at all
         change_before = change;
         double points = side * side, left = std::max(left_by_change, expected);
         for (; left > limits.footprint; left /= 4) points *= 4;
-        if (may_trace && points * cost_of_point > cost_of_average_by_rays(limits.monte_carlo)) break;
+        if (are_rays_cheaper_than(points)) break;
     }
     if (may_trace) return with_cost_of(by_rays(setup, surface, best.light.unshadowed, limits.monte_carlo, key), best);
     return with_cost_of(by_many_points(setup, sight, surface, key, work), best);

@@ -5,6 +5,7 @@
 #include "baker/gather/gather.h"
 #include "baker/gather/monte_carlo.h"
 #include "baker/gather/point_light.h"
+#include "baker/texel/texel_surface.h"
 
 namespace surimi {
 
@@ -12,8 +13,8 @@ namespace surimi {
 struct TexelLight {
     PointLight light;
     size_t points = 0;
-    bool is_by_center = false;       ///< see LitTexel
-    double lowest = 1, highest = 0;  ///< visibility of any point
+    bool is_by_center = false;  ///< see LitTexel
+    double spread = 0;          ///< by how much points of one piece differ in visibility, on average over the pieces
 };
 
 /// Middles of side x side cells of a texel; of one of several pieces each piece has cells of about that size, and at
@@ -24,9 +25,10 @@ TexelLight average_over_cells(const MonitorSetup& setup, const BlockSight& sight
 /// What is known of a texel before it is refined.
 struct Beginning {
     PointLight center;
-    double footprint = 0;    ///< what the average may differ from it (footprint.h); infinite where nothing is known
-    int side = 2;            ///< cells a side to begin with: 4 for a texel about which four points say little
-    bool is_border = false;  ///< of its chart: what happens at the rim has to be looked at
+    double footprint = 0;  ///< what the average may differ from it (footprint.h); infinite where nothing is known
+    bool has_rim = false;  ///< shadows may lie along its sides, or across a corner: they have to be looked at
+    bool is_unlike_center = false;  ///< four points have to be compared with sixteen, not with it
+    bool is_cut = false;            ///< along contacts: neighbours do not tell what its parts are like
 };
 
 /// Refines from the value at the centre: four points, sixteen and so on, until two steps agree or rays would be

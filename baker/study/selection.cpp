@@ -7,6 +7,7 @@
 #include <set>
 #include <tuple>
 
+#include "baker/texel/texel_surface.h"
 #include "runtime/base/parallel.h"
 #include "runtime/base/random.h"
 #include "runtime/ltc/polygon.h"

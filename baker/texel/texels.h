@@ -2,6 +2,7 @@
 // Atlas -> texels: which triangles each lightmap texel of a page touches.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -37,68 +38,7 @@ struct Texels {
 /// (existing UVs only), the chart of the lower number owns it.
 Texels find_texels(const Scene& scene, const Atlas& atlas, int page = 0);
 
-/// The surface under one texel, ready to be sampled evenly by area.
-class TexelSurface {
-  public:
-    TexelSurface(const Scene& scene, const Atlas& atlas, const Texels& texels, const Texel& texel);
-
-    /// A value that is affine in (u, v).
-    struct Affine {
-        Vec3 origin{0}, edge_u{0}, edge_v{0};
-        Vec3 at(double u, double v) const { return origin + u * edge_u + v * edge_v; }
-    };
-    struct Piece {              ///< a triangle or the whole texel square
-        double cumulative = 0;  ///< area of this and all earlier pieces
-        bool is_square = false;
-        bool has_one_normal = false;  ///< then normal.origin is it, of unit length
-        TriangleRef triangle;
-        Vec3 geometric_normal{0, 0, 1};
-        Affine barycentric, position, normal;
-
-        /// Unit shading normal at (u, v).
-        Vec3 unit_normal(double u, double v) const {
-            return has_one_normal ? normal.origin : normalize_or(normal.at(u, v), geometric_normal);
-        }
-    };
-
-    /// The piece that (u, v) in [0, 1)^2 chooses; (u, v) become coordinates within it. The place is evenly spread over
-    /// the surface's area when (u, v) are (M8). Half the work of `sample` where not all of the point is needed.
-    const Piece& choose(double& u, double& v) const;
-
-    /// The point for (u, v) in [0, 1)^2, spread in the same way. Always on a triangle.
-    SurfacePoint sample(double u, double v) const;
-
-    std::span<const Piece> pieces() const { return pieces_; }
-    /// Share of the texel's area; all shares sum to 1.
-    double share_of(const Piece& piece) const;
-    /// The point at (u, v) of the piece's own coordinates: (0, 0), (1, 0), (1, 1) are corners, for a square (0, 1) too.
-    static SurfacePoint point_of(const Piece& piece, const Vec2& uv);
-
-    /// The point that stands for the texel best: its centre of area where all of it lies in one plane, else the middle
-    /// of the piece whose middle is nearest to that. Always on a triangle or in its plane.
-    SurfacePoint center() const;
-
-    /// Calls visit(SurfacePoint) for the corners of all pieces: the surface is their convex hulls.
-    template <class Visit>
-    void for_each_corner(const Visit& visit) const {
-        for (const Piece& piece : pieces_) {
-            for (const Vec2& uv : {Vec2(0, 0), Vec2(1, 0), Vec2(1, 1)}) visit(point_of(piece, uv));
-            if (piece.is_square) visit(point_of(piece, {0, 1}));
-        }
-    }
-
-    /// m^2 of surface under the texel; 0 for a texel that is only touched.
-    double area() const { return area_; }
-
-  private:
-    void add(const TriangleRef& triangle, const Vec2& corner);
-    void add_piece(const TriangleRef& triangle, double area, bool is_square, const Affine& barycentric);
-
-    const Scene& scene_;
-    const Atlas& atlas_;
-    std::vector<Piece> pieces_;
-    double total_ = 0;  // of the pieces' weights: their areas, unless all of those are 0
-    double area_ = 0;
-};
+/// Where the triangle lies on the map, in texels.
+std::array<Vec2, 3> texel_corners(const Atlas& atlas, const TriangleRef& triangle);
 
 }  // namespace surimi

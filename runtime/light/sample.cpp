@@ -2,6 +2,7 @@
 #include "runtime/light/sample.h"
 
 #include <algorithm>
+#include <array>
 
 namespace surimi {
 namespace {
@@ -18,10 +19,7 @@ bool is_parallelogram(const std::vector<Vec3>& c) {
 MonitorSampler::MonitorSampler(const Monitor& monitor) : two_sided_(monitor.two_sided) {
     size_t panel = 0;
     const auto add = [&](const Vec3& origin, const Vec3& u, const Vec3& v, const Vec3& normal, bool whole) {
-        const double area = glm::length(glm::cross(u, v)) * (whole ? 1 : 0.5);
-        if (!(area > 0)) return;
-        area_ += area;
-        pieces_.push_back({area_, whole, origin, u, v, normal, panel});
+        this->add({0, whole, origin, u, v, normal, panel});
     };
     for (; panel < monitor.panels.size(); ++panel) {
         const std::vector<Vec3>& c = monitor.panels[panel].corners;
@@ -32,6 +30,46 @@ MonitorSampler::MonitorSampler(const Monitor& monitor) : two_sided_(monitor.two_
             for (size_t i = 1; i + 1 < c.size(); ++i) add(c[0], c[i] - c[0], c[i + 1] - c[i], normal, false);
         }
     }
+}
+
+void MonitorSampler::add(Piece piece) {
+    const double area = glm::length(glm::cross(piece.edge_u, piece.edge_v)) * (piece.is_parallelogram ? 1 : 0.5);
+    if (!(area > 0)) return;
+    area_ += area;
+    piece.cumulative = area_;
+    pieces_.push_back(piece);
+}
+
+MonitorSampler MonitorSampler::above(const Vec3& normal, double height) const {
+    MonitorSampler part(*this);
+    part.pieces_.clear();
+    part.area_ = 0;
+    for (const Piece& piece : pieces_) {
+        // The height over the plane is affine in (u, v): what is kept reaches as far as the corners above it, and the
+        // places where sides cross it.
+        const auto over = [&](const Vec2& at) {
+            return glm::dot(normal, piece.origin + at.x * piece.edge_u + at.y * piece.edge_v) - height;
+        };
+        const std::array<Vec2, 4> corners = {Vec2(0, 0), Vec2(1, 0), Vec2(1, 1), Vec2(0, 1)};
+        const size_t count = piece.is_parallelogram ? 4 : 3;
+        Vec2 low(1), high(0);
+        const auto keep = [&](const Vec2& at) { low = glm::min(low, at), high = glm::max(high, at); };
+        for (size_t i = 0; i < count; ++i) {
+            const Vec2 &a = corners[i], &b = corners[(i + 1) % count];
+            const double from = over(a), to = over(b);
+            if (from >= 0) keep(a);
+            if ((from < 0) != (to < 0)) keep(glm::clamp(a + (b - a) * (from / (from - to)), 0.0, 1.0));
+        }
+        if (low.x > high.x) continue;
+        Piece kept = piece;
+        if (piece.is_parallelogram) {
+            kept.origin += low.x * piece.edge_u + low.y * piece.edge_v;
+            kept.edge_u *= high.x - low.x;
+            kept.edge_v *= high.y - low.y;
+        }
+        part.add(kept);
+    }
+    return part.pieces_.empty() ? *this : part;
 }
 
 LightPoint MonitorSampler::sample(double u, double v) const {

@@ -23,6 +23,10 @@ class MonitorSampler {
     /// The point for (u, v) in [0, 1)^2; evenly spread over the panels' area when (u, v) are.
     LightPoint sample(double u, double v) const;
 
+    /// A sampler of the part where dot(normal, place) >= height, and of some more around it; the same sampler where
+    /// that is all or nothing.
+    MonitorSampler above(const Vec3& normal, double height) const;
+
     double area() const { return area_; }
     bool is_two_sided() const { return two_sided_; }
 
@@ -33,6 +37,8 @@ class MonitorSampler {
         Vec3 origin{0}, edge_u{0}, edge_v{0}, normal{0, 0, 1};
         size_t panel = 0;
     };
+    void add(Piece piece);
+
     std::vector<Piece> pieces_;
     double area_ = 0;
     bool two_sided_ = false;

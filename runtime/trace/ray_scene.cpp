@@ -30,6 +30,7 @@ struct RayScene::State {
     RTCDevice device = nullptr;
     RTCScene handle = nullptr;
     std::vector<Cutout> cutouts;
+    std::vector<Surface> panels;  // of each monitor that has no surface of its own
 
     explicit State(const Scene& s) : scene(s) {}
     ~State() {
@@ -89,21 +90,23 @@ void RayScene::State::attach_surface(uint32_t index) {
 
 /// Monitors that the configuration describes have no surface, but block the light of the others all the same.
 void RayScene::State::attach_panels(size_t monitor) {
-    std::vector<Vec3> positions;
-    std::vector<std::array<uint32_t, 3>> triangles;
+    Surface& surface = panels[monitor];
     for (const Polygon& panel : scene.monitors[monitor].panels) {
-        const auto first = static_cast<uint32_t>(positions.size());
-        positions.insert(positions.end(), panel.corners.begin(), panel.corners.end());
-        for (uint32_t i = 1; i + 1 < panel.corners.size(); ++i) triangles.push_back({first, first + i, first + i + 1});
+        const auto first = static_cast<uint32_t>(surface.positions.size());
+        surface.positions.insert(surface.positions.end(), panel.corners.begin(), panel.corners.end());
+        for (uint32_t i = 1; i + 1 < panel.corners.size(); ++i)
+            surface.triangles.push_back({first, first + i, first + i + 1});
     }
-    if (!triangles.empty())
-        attach(positions, triangles, 1u << monitor, static_cast<unsigned>(scene.surfaces.size() + monitor));
+    if (!surface.triangles.empty())
+        attach(surface.positions, surface.triangles, 1u << monitor,
+               static_cast<unsigned>(scene.surfaces.size() + monitor));
 }
 
 RayScene::RayScene(const Scene& scene) : state_(std::make_unique<State>(scene)) {
     const Bounds box = bounds(scene);
     state_->center = is_finite(box.low) && is_finite(box.high) ? 0.5 * (box.low + box.high) : Vec3(0);
     state_->cutouts.resize(scene.surfaces.size());
+    state_->panels.resize(scene.monitors.size());
     state_->device = rtcNewDevice(nullptr);
     if (!state_->device) throw Error(ErrorKind::internal, "Embree could not start");
     state_->handle = rtcNewScene(state_->device);
@@ -210,6 +213,38 @@ std::optional<TriangleRef> RayScene::closest_occluder(const Vec3& origin, const 
     rtcIntersect1(state_->handle, &context, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
     return TriangleRef{query.hit.geomID, query.hit.primID};
+}
+
+void RayScene::find_triangles_near(const Vec3& place, double radius, std::vector<TriangleRef>& found) const {
+    found.clear();
+    RTCPointQuery query;
+    query.x = static_cast<float>(place.x);
+    query.y = static_cast<float>(place.y);
+    query.z = static_cast<float>(place.z);
+    // What is rounded to float, the place and the triangles, stays within.
+    const double rounding = 4 * std::numeric_limits<float>::epsilon() * (largest_component(place) + radius);
+    query.radius = static_cast<float>(radius + rounding);
+    query.time = 0;
+    RTCPointQueryContext context;
+    rtcInitPointQueryContext(&context);
+    rtcPointQuery(
+        state_->handle, &query, &context,
+        [](RTCPointQueryFunctionArguments* at) {
+            static_cast<std::vector<TriangleRef>*>(at->userPtr)->push_back({at->geomID, at->primID});
+            return false;  // the radius stays
+        },
+        &found);
+    std::ranges::sort(found, {}, [](const TriangleRef& t) { return std::pair(t.surface, t.triangle); });
+}
+
+std::array<Vec3, 3> RayScene::corners_of(const TriangleRef& triangle) const {
+    const std::vector<Surface>& surfaces = state_->scene.surfaces;
+    const bool is_panel = triangle.surface >= surfaces.size();
+    const Surface& surface = is_panel ? state_->panels[triangle.surface - surfaces.size()] : surfaces[triangle.surface];
+    std::array<Vec3, 3> corners;
+    for (size_t i = 0; i < 3; ++i)
+        corners[i] = surface.positions[surface.triangles[triangle.triangle][i]] - state_->center;
+    return corners;
 }
 
 std::optional<Hit> RayScene::closest_hit(const Vec3& origin, const Vec3& direction) const {

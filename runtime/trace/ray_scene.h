@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "runtime/scene/surface_point.h"
 
@@ -72,6 +73,13 @@ class RayScene {
     /// monitor `monitor`.
     std::optional<TriangleRef> closest_occluder(const Vec3& origin, const Vec3& target, double end,
                                                 size_t monitor) const;
+
+    /// All triangles that come within `radius` of `place` (relative to center()), and some more, sorted; replaces what
+    /// is in `found`.
+    void find_triangles_near(const Vec3& place, double radius, std::vector<TriangleRef>& found) const;
+
+    /// The corners of a triangle as rays meet it, monitors' panels among them, relative to center().
+    std::array<Vec3, 3> corners_of(const TriangleRef& triangle) const;
 
     /// Nearest surface along a ray; alpha-masked holes are not hit.
     std::optional<Hit> closest_hit(const Vec3& origin, const Vec3& direction) const;

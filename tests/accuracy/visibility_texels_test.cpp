@@ -4,6 +4,7 @@
 
 #include <cstring>
 
+#include "baker/texel/texel_surface.h"
 #include "tests/support/occlusion_scenes.h"
 #include "tests/support/scenes.h"
 #include "tests/support/visibility_judge.h"

@@ -207,8 +207,9 @@ TEST(Gather, TwoSidedMonitorsLightBothSides) {
     EXPECT_EQ(dark.statistics.rays(), 0u);
     const Gathered two_sided = Map{both}.gathered(settings);
     EXPECT_LT(largest_difference(lit, two_sided), 0.01);
+    // A block on both sides has more silhouettes, so a texel may be given by its centre here and by its cells there.
     for (size_t i = 0; i < lit.estimates.size(); ++i)
-        EXPECT_NEAR(lit.estimates[i].unshadowed, two_sided.estimates[i].unshadowed, 1e-6);
+        EXPECT_NEAR(lit.estimates[i].unshadowed, two_sided.estimates[i].unshadowed, 1e-5);
 }
 
 TEST(Gather, TexelsInTheMonitorsOwnPlaneAreUnlit) {

@@ -52,5 +52,27 @@ TEST(MonitorSampler, EndpointsOfTheUnitSquareStayOnThePanels) {
         }
 }
 
+TEST(MonitorSampler, AboveAHorizonKeepsAllOfThatAndLittleMore) {
+    // A square of 2 m that leans, of which the horizon y = 0.5 leaves a strip, and a triangle below it.
+    const MonitorSampler sampler(
+        monitor_of({{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 1}, {-1, 1, 1}}}, {{{3, 0, 0}, {4, 0, 0}, {3, 0.4, 0}}}}));
+    const MonitorSampler part = sampler.above({0, 1, 0}, 0.5);
+    EXPECT_NEAR(part.area(), 0.25 * 2 * std::sqrt(5.0), 1e-12);
+    for (uint32_t i = 0; i < 256; ++i) {
+        const auto r = scrambled(sobol::point(i), scrambling(4));
+        const LightPoint p = part.sample(r[0], r[1]);
+        EXPECT_GE(p.position.y, 0.5 - 1e-12);
+        EXPECT_EQ(p.panel, 0u);
+        EXPECT_NEAR(p.position.z, 0.5 * (p.position.y + 1), 1e-12);
+    }
+    // Across a corner: the box around what is left.
+    const double side = std::sqrt(0.5);
+    const MonitorSampler square(monitor_of({{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}}}));
+    const MonitorSampler corner = square.above({side, side, 0}, 1.75 * side);
+    EXPECT_NEAR(corner.area(), 0.0625, 1e-12) << "a quarter by a quarter";
+    EXPECT_EQ(sampler.above({0, 1, 0}, -5).area(), sampler.area());
+    EXPECT_EQ(sampler.above({0, 1, 0}, 5).area(), sampler.area()) << "nothing: the same sampler";
+}
+
 }  // namespace
 }  // namespace surimi

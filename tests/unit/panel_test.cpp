@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "baker/gather/panel.h"
+#include "baker/texel/polygon.h"
 
 #include <gtest/gtest.h>
 

@@ -24,7 +24,7 @@ struct Sight {
         BlockSight sight;
         look_from(sight, setup, std::span(&origin, 1), 0);
         PointWorkspace work;
-        return light_at(setup, sight, point, 3, work);
+        return light_at(setup, sight, point, {3}, work);
     }
 };
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstdlib>
 #include <filesystem>
@@ -36,6 +37,33 @@ TEST(RayScene, SeesTheNearestSurfaceAndItsSide) {
     ASSERT_TRUE(back);
     EXPECT_FALSE(back->is_front);
     EXPECT_FALSE(rays.closest_hit({5, 5, 5}, {0, 0, 1}));
+}
+
+TEST(RayScene, FindsTrianglesNearAPlace_MonitorsOfSettingsAmongThem) {
+    Scene scene;
+    const uint32_t near = test::add_quad(scene, "Near", {9, 9, 10}, {11, 9, 10}, {11, 11, 10}, {9, 11, 10});
+    test::add_quad(scene, "Far", {-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1});
+    Monitor monitor;
+    monitor.panels.push_back({{{9, 9, 12}, {11, 9, 12}, {11, 11, 12}, {9, 11, 12}}});
+    scene.monitors.push_back(monitor);
+    const RayScene rays(scene);
+    std::vector<TriangleRef> found = {{7, 7}};
+    const auto has = [&](uint32_t surface, uint32_t triangle) {
+        return std::ranges::any_of(
+            found, [&](const TriangleRef& t) { return t.surface == surface && t.triangle == triangle; });
+    };
+    rays.find_triangles_near(Vec3(10) - rays.center(), 0.5, found);
+    EXPECT_TRUE(has(near, 0) && has(near, 1));
+    EXPECT_FALSE(has(7, 7)) << "what was in it is gone";
+    EXPECT_TRUE(std::ranges::is_sorted(found, {}, [](const TriangleRef& t) { return 2 * t.surface + t.triangle; }));
+    const auto corners = rays.corners_of({near, 0});
+    EXPECT_NEAR(glm::length(corners[0] + rays.center() - Vec3(9, 9, 10)), 0, 1e-12);
+    const auto panels = static_cast<uint32_t>(scene.surfaces.size());
+    rays.find_triangles_near(Vec3(10, 10, 11.9) - rays.center(), 0.5, found);
+    EXPECT_TRUE(has(panels, 0) && has(panels, 1));
+    EXPECT_NEAR(rays.corners_of({panels, 1})[2].z + rays.center().z, 12, 1e-12);
+    rays.find_triangles_near(Vec3(10, 10, 500) - rays.center(), 0.5, found);
+    EXPECT_FALSE(has(near, 0) || has(panels, 0));
 }
 
 TEST(RayScene, IsEmptyWithoutSurfaces) {

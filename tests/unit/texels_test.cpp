@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "baker/texel/texels.h"
+#include "baker/texel/texel_surface.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where other surfaces stand on a texel or come through it: visibility has a step there, and none between (M57).
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "baker/texel/texel_surface.h"
+#include "runtime/trace/ray_scene.h"
+
+namespace surimi {
+
+/// Relative to RayScene::center().
+struct BoxedTriangle {
+    std::array<Vec3, 3> corners;
+    Vec3 low{0}, high{0};
+};
+
+/// The triangles whose boxes meet that of the places.
+std::vector<BoxedTriangle> triangles_around(const RayScene& rays, std::span<const Vec3> places);
+
+/// Cuts the texel where the triangles cross the places that rays from it start from, as long as there are few enough
+/// parts; see TexelSurface::cut. `triangles`: all that come near it.
+TexelSurface::CutResult cut_at_contacts(const RayScene& rays, std::span<const BoxedTriangle> triangles,
+                                        TexelSurface& surface);
+
+}  // namespace surimi
