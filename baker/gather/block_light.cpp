@@ -39,6 +39,18 @@ bool is_partly_lit(const MonitorSetup& setup, const TexelSurface& surface) {
     return is_lit;
 }
 
+/// Does some of it lie behind a panel's plane, or so close before it that nothing counts as an occluder, and some not?
+bool meets_clearance(const MonitorSetup& setup, const TexelSurface& surface) {
+    return std::ranges::any_of(setup.panels, [&](const Panel& panel) {
+        double lowest = INFINITY, highest = -INFINITY;
+        surface.for_each_corner([&](const SurfacePoint& corner) {
+            const double height = panel.height(corner.position - setup.rays.center());
+            lowest = std::min(lowest, height), highest = std::max(highest, height);
+        });
+        return lowest <= panel.clearance && highest > panel.clearance;
+    });
+}
+
 class BlockLighter {
   public:
     BlockLighter(const MonitorSetup& setup, const BlockSurfaces& block, std::span<const double> footprints,
@@ -174,7 +186,8 @@ class BlockLighter {
         };
         if (!(center.unshadowed > 0)) {
             if (!is_partly_lit(setup_, surface)) return {center, 1};
-            return may_trace ? average_by_rays(i, setup_.limits.monte_carlo) : refine();
+            return may_trace && !meets_clearance(setup_, surface) ? average_by_rays(i, setup_.limits.monte_carlo)
+                                                                  : refine();
         }
         if (may_trace && (!cut.is_whole || center.is_self_hidden))
             return by_rays(setup_, surface, center.unshadowed, setup_.limits.monte_carlo, key(i));

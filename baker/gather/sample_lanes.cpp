@@ -104,11 +104,7 @@ void weigh_all(double clearance, bool is_two_sided, SampleLanes& lanes) {
         const Three origin = sum(position, load(lanes.to_origin, i));
         const Three direction = difference(target, origin);
         const V64 height = hn::Abs(dot(direction, panel_normal));
-        // Near the panel's plane the clearance would be most of the way, and walls in between would not be met.
-        const V64 left = hn::Min(hn::Div(margin, height), hn::Set(d, SampleLanes::most_left));
-        const auto is_far =
-            hn::Gt(square, hn::Set(d, SampleLanes::around * clearance * SampleLanes::around * clearance));
-        const V64 end = hn::IfThenElseZero(hn::Or(hn::Gt(height, margin), is_far), hn::Sub(one, left));
+        const V64 end = hn::IfThenElseZero(hn::Gt(height, margin), hn::Sub(one, hn::Div(margin, height)));
         const auto leaves_surface = hn::Gt(dot(way, load(lanes.geometric_normal, i)), zero);
         store(hn::IfThenElse(leaves_surface, end, hn::Set(d, double{SampleLanes::shadowed})), lanes.end.data() + i);
         store(origin, lanes.origin, i);

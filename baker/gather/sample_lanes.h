@@ -35,8 +35,6 @@ struct SampleLanes {
     alignas(64) Lanes<float> end;     ///< in directions' lengths. No ray is needed where it is `shadowed` or `open`
     static constexpr float shadowed = -1;  ///< the surface itself is in the way, though the shading normal is not
     static constexpr float open = 0;       ///< nothing counts as an occluder so close to the panel
-    static constexpr double most_left = 1.0 / 16;  ///< of the way, at which rays end at the earliest
-    static constexpr double around = 1e4;          ///< clearances; farther from the panel than that no place is open
 
     static void set(Vectors& vectors, size_t lane, const Vec3& v) {
         for (size_t c = 0; c < 3; ++c) vectors[c][lane] = v[static_cast<int>(c)];
@@ -46,7 +44,7 @@ struct SampleLanes {
 /// Owen-scrambled Sobol points, by their digits ([dimension], `SampleLanes::count` of each, first digit lowest).
 void scramble(const std::array<const uint32_t*, 4>& digits, const Scrambling& seeds, SampleLanes& lanes);
 
-/// Weights and rays of all lanes. Rays end `clearance` metres before the panel's plane, or at 15/16 of the way.
+/// Weights and rays of all lanes. Rays end `clearance` metres before the panel's plane.
 void weigh(double clearance, bool is_two_sided, SampleLanes& lanes);
 
 }  // namespace surimi
