@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "baker/gather/contacts.h"
 #include "baker/gather/texel_light.h"
 #include "runtime/base/random.h"
 
@@ -155,6 +156,7 @@ class BlockLighter {
     }
 
     void refine_texels() {
+        if (!work_.sight.is_hidden()) around_ = triangles_around(setup_.rays, block_.corners);
         const double half = clock_.lap() / static_cast<double>(texels_.size());
         for (size_t y = 0; y < tile_size; ++y)
             for (size_t x = 0; x < tile_size; ++x) {
@@ -175,8 +177,10 @@ class BlockLighter {
         const PointLight& center = work_.centers[i];
         if (work_.sight.is_hidden())
             return center.unshadowed > 0 || is_partly_lit(setup_, block_.texels[i]) ? hidden(i) : TexelLight{center, 1};
+        const bool is_center_lit = center.unshadowed > 0;
+        if (!is_center_lit && !is_partly_lit(setup_, block_.texels[i])) return {center, 1};
         TexelSurface surface = block_.texels[i];
-        const auto cut = cut_at_contacts(setup_.rays, block_.around, surface);
+        const auto cut = cut_at_contacts(setup_.rays, around_, surface);
         const bool may_trace = setup_.settings.method == Method::automatic;
         const auto refine = [&] {
             const bool is_unlike_center = cut.is_cut || block_.is_curved[i] || center.has_near || std::isinf(error);
@@ -184,11 +188,9 @@ class BlockLighter {
             const Beginning from{center, error, has_rim, is_unlike_center, cut.is_cut};
             return refined(setup_, work_.sight, surface, from, key(i), work_.point);
         };
-        if (!(center.unshadowed > 0)) {
-            if (!is_partly_lit(setup_, surface)) return {center, 1};
+        if (!is_center_lit)
             return may_trace && !meets_clearance(setup_, surface) ? average_by_rays(i, setup_.limits.monte_carlo)
                                                                   : refine();
-        }
         if (may_trace && (!cut.is_whole || center.is_self_hidden))
             return by_rays(setup_, surface, center.unshadowed, setup_.limits.monte_carlo, key(i));
         if (!center.is_usable() || block_.is_curved[i] || cut.is_cut || center.has_near || center.is_self_hidden ||
@@ -207,6 +209,7 @@ class BlockLighter {
     BlockWorkspace& work_;
     std::span<LitTexel> texels_;
     GatherStatistics& statistics_;
+    std::vector<BoxedTriangle> around_;  // those that may stand on texels
     size_t rays_of_query_ = 0;
     Clock clock_;
 };

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "baker/gather/block_sight.h"
-#include "baker/gather/contacts.h"
 #include "baker/gather/footprint.h"
 #include "baker/gather/gather.h"
 #include "baker/gather/point_light.h"
@@ -19,10 +18,9 @@ namespace surimi {
 struct BlockSurfaces {
     std::vector<TexelSurface> texels;
     std::vector<SurfacePoint> centers;
-    std::vector<uint64_t> keys;         ///< of the texels' random numbers, without the monitor
-    std::vector<char> is_curved;        ///< one point says little about such a texel
-    std::vector<char> is_border;        ///< no texel of its chart on some side: nothing tells what happens there
-    std::vector<BoxedTriangle> around;  ///< triangles that may stand on texels
+    std::vector<uint64_t> keys;   ///< of the texels' random numbers, without the monitor
+    std::vector<char> is_curved;  ///< one point says little about such a texel
+    std::vector<char> is_border;  ///< no texel of its chart on some side: nothing tells what happens there
     TileGrid grid{};
     std::array<Vec3, 8> corners;  ///< of a box around all places that rays start from, relative to RayScene::center()
     double texel_size = 0;        ///< metres, root of the largest texel's area

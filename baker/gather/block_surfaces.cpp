@@ -70,7 +70,6 @@ BlockSurfaces block_surfaces(const Scene& scene, const Atlas& atlas, const Texel
         largest = std::max(largest, surface.area());
     }
     block.corners = box_around(places, normals);
-    block.around = triangles_around(rays, places);
     block.texel_size = std::sqrt(largest);
     return block;
 }

@@ -49,10 +49,10 @@ void add_contacts(const RayScene& rays, std::span<const BoxedTriangle> triangles
     if (triangles.empty()) return;
     Box box;
     surface.for_each_corner([&](const SurfacePoint& corner) { box.add(rays.ray_origin(corner) - rays.center()); });
-    for (const BoxedTriangle& triangle : triangles) {
-        if (!meet(triangle.low, triangle.high, box)) continue;
-        for (size_t i = 0; i < surface.pieces().size(); ++i) {
-            const LiftedPiece piece(rays, surface, i);
+    for (size_t i = 0; i < surface.pieces().size(); ++i) {
+        const LiftedPiece piece(rays, surface, i);
+        for (const BoxedTriangle& triangle : triangles) {
+            if (!meet(triangle.low, triangle.high, box)) continue;
             std::array<Vec3, 2> ends;
             size_t count = 0;
             for (size_t k = 0; k < 3; ++k) {
