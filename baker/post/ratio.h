@@ -5,14 +5,9 @@
 #include <vector>
 
 #include "baker/gather/gather.h"
-#include "baker/post/fill.h"
+#include "baker/post/channel.h"
 
 namespace surimi {
-
-struct Channel {
-    Image<float> visibility;  ///< [0, 1]; 1 where not covered
-    Image<TexelState> state;
-};
 
 /// V = S / E (M3) where E > 0; other texels are unlit, those without a surface empty.
 Channel visibility_channel(const Texels& texels, const std::vector<IrradianceEstimate>& estimates);

@@ -86,6 +86,9 @@ struct Surface {
     int primitive = 0;
     int material = -1;            ///< index into Scene::materials; -1: glTF's default material
     int monitor = -1;             ///< index into Scene::monitors when this surface is (part of) one
+    bool casts = true;            ///< it stands in the way of light
+    bool receives = true;         ///< it gets texels of the map
+    bool is_two_sided = false;    ///< light on its back counts where none can fall on its front
     std::vector<Vec3> positions;  ///< metres; one for each vertex of the primitive, in its order
     std::vector<Vec3> normals;  ///< unit; same length. Flat ones where the file has none: then vertices are not shared
     std::vector<std::vector<Vec2>> uv_sets;          ///< TEXCOORD_0, 1, ...; each of the length of positions
