@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "baker/gather/cover.h"
 #include "baker/monitor_warnings.h"
 #include "baker/post/ratio.h"
 #include "baker/preparation.h"
@@ -59,17 +60,21 @@ void store_channel(BakedPage& page, const Monitor& monitor, const Atlas& atlas, 
     page.irradiance[c] = as_image(texels, estimates);
 }
 
+void append(std::vector<std::string>& lines, const std::vector<std::string>& more) {
+    lines.insert(lines.end(), more.begin(), more.end());
+}
+
 /// What light is gathered on, and by which rays.
-struct Receivers {
+struct Room {
     const Scene& scene;
     const std::vector<Texels>& texels;  ///< by page
     const RayScene& rays;
 };
 
 /// An audit for each page of a monitor that is done. The pages share the texels asked for by how many have light.
-std::vector<Audit> audit_pages(const Receivers& receivers, const Bake& baked, size_t monitor,
-                               const BakeSettings& settings, const Progress& progress) {
-    const auto c = static_cast<size_t>(receivers.scene.monitors[monitor].channel);
+std::vector<Audit> audit_pages(const Room& room, const Bake& baked, size_t monitor, const BakeSettings& settings,
+                               const Progress& progress) {
+    const auto c = static_cast<size_t>(room.scene.monitors[monitor].channel);
     std::vector<size_t> lit{0};  // texels with light on all pages before this one
     for (const BakedPage& page : baked.pages) {
         const auto& pixels = page.irradiance[c].pixels;
@@ -79,10 +84,10 @@ std::vector<Audit> audit_pages(const Receivers& receivers, const Bake& baked, si
     const size_t wanted = std::min(settings.audit, lit.back());
     std::vector<Audit> audits(baked.pages.size());
     for (size_t p = 0; p < audits.size(); ++p) {
-        const Texels& texels = receivers.texels[p];
+        const Texels& texels = room.texels[p];
         const size_t count = lit.back() > 0 ? wanted * lit[p + 1] / lit.back() - wanted * lit[p] / lit.back() : 0;
         if (count > 0)
-            audits[p] = audit(receivers.scene, baked.atlas, texels, receivers.rays, monitor,
+            audits[p] = audit(room.scene, baked.atlas, texels, room.rays, monitor,
                               of_texels(texels, baked.pages[p].irradiance[c]), settings.gather, count,
                               part_of(progress, p, audits.size()));
     }
@@ -102,9 +107,12 @@ Bake bake(const Scene& scene, const BakeSettings& settings, const Progress& prog
     stopwatch.finish("texels");
     const RayScene rays(scene);
     result.warnings = monitor_warnings(scene, rays);
-    result.warnings.insert(result.warnings.end(), result.atlas.warnings.begin(), result.atlas.warnings.end());
+    append(result.warnings, result.atlas.warnings);
+    if (settings.gather.clears_covers) append(result.warnings, describe_covers(scene, rays));
     stopwatch.finish("rays");
-
+    if (settings.finds_inside) result.exposure = find_exposures(scene, result.atlas, rays, texels);
+    append(result.warnings, result.exposure.warnings);
+    stopwatch.finish("inside");
     const Silhouettes silhouettes = find_silhouettes(scene, rays);
     stopwatch.finish("silhouettes");
 

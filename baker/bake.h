@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "baker/gather/audit.h"
+#include "baker/gather/exposure.h"
 #include "baker/gather/gather.h"
 #include "baker/post/fill.h"
 #include "baker/texel/texels.h"
@@ -20,6 +21,7 @@ namespace surimi {
 
 struct BakeSettings {
     UnwrapSettings unwrap;
+    bool finds_inside = true;  ///< texels inside other geometry are found and filled instead of lit
     GatherSettings gather;
     size_t audit = 0;  ///< texels of each monitor to check against many rays; 0: none
 };
@@ -49,6 +51,7 @@ struct Bake {
     Atlas atlas;
     std::vector<BakedPage> pages;
     double error = GatherSettings{}.error;  ///< asked for
+    ExposureCounts exposure;                ///< what lies inside other geometry, of all pages
     std::vector<MonitorEvidence> evidence;  ///< by index in Scene::monitors
     std::vector<StageCost> costs;
     std::vector<std::string> warnings;

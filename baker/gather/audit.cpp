@@ -6,6 +6,8 @@
 #include <string>
 
 #include "baker/gather/confidence.h"
+#include "baker/gather/cover.h"
+#include "baker/gather/exposure.h"
 #include "baker/gather/monte_carlo.h"
 #include "baker/gather/panel.h"
 #include "runtime/base/random.h"
@@ -86,7 +88,9 @@ Audit audit(const Scene& scene, const Atlas& atlas, const Texels& texels, const 
     const MonitorSampler sampler(light);
     const SamplePoints points;
     double clearance = 0;
-    for (const Panel& panel : panels_of(light, rays)) clearance = std::max(clearance, panel.clearance);
+    std::vector<Panel> panels = panels_of(light, rays);
+    if (settings.clears_covers) clear_covers(rays, monitor, panels);
+    for (const Panel& panel : panels) clearance = std::max(clearance, panel.clearance);
     const uint64_t key = hash(hash(hash(audit_key, settings.seed), static_cast<uint64_t>(light.channel)),
                               static_cast<uint64_t>(texels.page));
     const std::vector<size_t> drawn = draw(estimates, count, key);
@@ -100,7 +104,8 @@ Audit audit(const Scene& scene, const Atlas& atlas, const Texels& texels, const 
                                       .monitor = monitor,
                                       .clearance = clearance,
                                       .key = hash(key, texel.index)};
-            measured[i] = measure(task, TexelSurface(scene, atlas, texels, texel), estimates[drawn[i]]);
+            measured[i] =
+                measure(task, exposed_surface({scene, atlas, texels, rays}, texel, panels), estimates[drawn[i]]);
         }
     });
     return summarise(measured, settings.error, hash(key, 0));

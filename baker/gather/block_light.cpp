@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "baker/gather/contacts.h"
+#include "baker/gather/exposure.h"
 #include "baker/gather/texel_light.h"
 #include "runtime/base/random.h"
 
@@ -25,20 +26,6 @@ class Clock {
   private:
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
-
-double unshadowed_at(const MonitorSetup& setup, const SurfacePoint& point) {
-    double sum = 0;
-    for (const Panel& panel : setup.panels)
-        sum += unshadowed_from(panel, point.position - setup.rays.center(), point.normal);
-    return sum;
-}
-
-/// Its centre is not lit, but a corner is.
-bool is_partly_lit(const MonitorSetup& setup, const TexelSurface& surface) {
-    bool is_lit = false;
-    surface.for_each_corner([&](const SurfacePoint& corner) { is_lit = is_lit || unshadowed_at(setup, corner) > 0; });
-    return is_lit;
-}
 
 /// Does some of it lie behind a panel's plane, or so close before it that nothing counts as an occluder, and some not?
 bool meets_clearance(const MonitorSetup& setup, const TexelSurface& surface) {
@@ -114,11 +101,12 @@ class BlockLighter {
     void light_by_rays() {
         const double error = setup_.limits.all_by_rays;
         for (size_t i = 0; i < texels_.size(); ++i) {
-            const double unshadowed = unshadowed_at(setup_, block_.centers[i]);
+            const double unshadowed = unshadowed_at(setup_.panels, setup_.rays, block_.centers[i]);
             if (unshadowed > 0)
                 write(i, by_rays(setup_, block_.texels[i], unshadowed, error, key(i)));
             else
-                write(i, is_partly_lit(setup_, block_.texels[i]) ? average_by_rays(i, error) : TexelLight{});
+                write(i, has_lit_corner(setup_.panels, setup_.rays, block_.texels[i]) ? average_by_rays(i, error)
+                                                                                      : TexelLight{});
         }
     }
 
@@ -127,7 +115,8 @@ class BlockLighter {
         constexpr int side = 4;
         double sum = 0;
         for (int k = 0; k < side * side; ++k)
-            sum += unshadowed_at(setup_, block_.texels[i].sample((k % side + 0.5) / side, (k / side + 0.5) / side));
+            sum += unshadowed_at(setup_.panels, setup_.rays,
+                                 block_.texels[i].sample((k % side + 0.5) / side, (k / side + 0.5) / side));
         return sum / (side * side);
     }
 
@@ -176,16 +165,19 @@ class BlockLighter {
     TexelLight finish(size_t i, double error) {
         const PointLight& center = work_.centers[i];
         if (work_.sight.is_hidden())
-            return center.unshadowed > 0 || is_partly_lit(setup_, block_.texels[i]) ? hidden(i) : TexelLight{center, 1};
+            return center.unshadowed > 0 || has_lit_corner(setup_.panels, setup_.rays, block_.texels[i])
+                       ? hidden(i)
+                       : TexelLight{center, 1};
         const bool is_center_lit = center.unshadowed > 0;
-        if (!is_center_lit && !is_partly_lit(setup_, block_.texels[i])) return {center, 1};
+        if (!is_center_lit && !has_lit_corner(setup_.panels, setup_.rays, block_.texels[i])) return {center, 1};
         TexelSurface surface = block_.texels[i];
         const auto cut = cut_at_contacts(setup_.rays, around_, surface);
+        const bool is_cut = cut.is_cut || block_.is_partial[i];
         const bool may_trace = setup_.settings.method == Method::automatic;
         const auto refine = [&] {
-            const bool is_unlike_center = cut.is_cut || block_.is_curved[i] || center.has_near || std::isinf(error);
-            const bool has_rim = block_.is_border[i] || center.has_near || cut.is_cut;
-            const Beginning from{center, error, has_rim, is_unlike_center, cut.is_cut};
+            const bool is_unlike_center = is_cut || block_.is_curved[i] || center.has_near || std::isinf(error);
+            const bool has_rim = block_.is_border[i] || center.has_near || is_cut;
+            const Beginning from{center, error, has_rim, is_unlike_center, is_cut};
             return refined(setup_, work_.sight, surface, from, key(i), work_.point);
         };
         if (!is_center_lit)
@@ -193,7 +185,7 @@ class BlockLighter {
                                                                   : refine();
         if (may_trace && (!cut.is_whole || center.is_self_hidden))
             return by_rays(setup_, surface, center.unshadowed, setup_.limits.monte_carlo, key(i));
-        if (!center.is_usable() || block_.is_curved[i] || cut.is_cut || center.has_near || center.is_self_hidden ||
+        if (!center.is_usable() || block_.is_curved[i] || is_cut || center.has_near || center.is_self_hidden ||
             block_.is_border[i])
             return refine();
         if (error > setup_.limits.footprint) return refine();

@@ -9,6 +9,7 @@
 #include "baker/gather/block_sight.h"
 #include "baker/gather/footprint.h"
 #include "baker/gather/gather.h"
+#include "baker/gather/monitor_setup.h"
 #include "baker/gather/point_light.h"
 #include "baker/texel/texel_surface.h"
 
@@ -18,16 +19,18 @@ namespace surimi {
 struct BlockSurfaces {
     std::vector<TexelSurface> texels;
     std::vector<SurfacePoint> centers;
-    std::vector<uint64_t> keys;   ///< of the texels' random numbers, without the monitor
-    std::vector<char> is_curved;  ///< one point says little about such a texel
-    std::vector<char> is_border;  ///< no texel of its chart on some side: nothing tells what happens there
+    std::vector<uint64_t> keys;    ///< of the texels' random numbers, without the monitor
+    std::vector<char> is_curved;   ///< one point says little about such a texel
+    std::vector<char> is_border;   ///< no texel of its chart on some side: nothing tells what happens there
+    std::vector<char> is_partial;  ///< a part of it is inside other geometry and left out
     TileGrid grid{};
     std::array<Vec3, 8> corners;  ///< of a box around all places that rays start from, relative to RayScene::center()
     double texel_size = 0;        ///< metres, root of the largest texel's area
 };
 
-/// `members`: indices into texels.texels.
-BlockSurfaces block_surfaces(const Scene& scene, const Atlas& atlas, const Texels& texels, const RayScene& rays,
+/// As the setup's monitor lights them (exposed_surface). `members`: indices into texels.texels, of texels that are not
+/// inside other geometry.
+BlockSurfaces block_surfaces(const MonitorSetup& setup, const Atlas& atlas, const Texels& texels,
                              std::span<const uint32_t> members);
 
 /// Memory that is used again from block to block.

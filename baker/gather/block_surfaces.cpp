@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "baker/gather/block_light.h"
+#include "baker/gather/exposure.h"
 #include "runtime/base/random.h"
 
 namespace surimi {
@@ -43,8 +44,10 @@ bool is_curved(const TexelSurface& surface, const SurfacePoint& center) {
 
 }  // namespace
 
-BlockSurfaces block_surfaces(const Scene& scene, const Atlas& atlas, const Texels& texels, const RayScene& rays,
+BlockSurfaces block_surfaces(const MonitorSetup& setup, const Atlas& atlas, const Texels& texels,
                              std::span<const uint32_t> members) {
+    const RayScene& rays = setup.rays;
+    const Receivers receivers{setup.scene, atlas, texels, rays};
     BlockSurfaces block;
     block.texels.reserve(members.size());
     block.grid.fill(-1);
@@ -55,7 +58,7 @@ BlockSurfaces block_surfaces(const Scene& scene, const Atlas& atlas, const Texel
     double largest = 0;
     for (const uint32_t member : members) {
         const Texel& texel = texels.texels[member];
-        const TexelSurface& surface = block.texels.emplace_back(scene, atlas, texels, texel);
+        const TexelSurface& surface = block.texels.emplace_back(exposed_surface(receivers, texel, setup.panels));
         const size_t cell = size_t{texel.index / width % tile_size} * tile_size + texel.index % width % tile_size;
         block.grid[cell] = static_cast<int16_t>(block.centers.size());
         block.centers.push_back(surface.center());
@@ -64,6 +67,7 @@ BlockSurfaces block_surfaces(const Scene& scene, const Atlas& atlas, const Texel
             places.push_back(rays.ray_origin(corner) - rays.center());
             normals += corner.geometric_normal;
         });
+        block.is_partial.push_back(texel.free_pieces != Texel::all_pieces);
         block.is_curved.push_back(is_curved(surface, block.centers.back()));
         // A texel of one plane may be judged at a place between its pieces.
         places.push_back(rays.ray_origin(block.centers.back()) - rays.center());

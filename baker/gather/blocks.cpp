@@ -2,7 +2,6 @@
 #include "baker/gather/blocks.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace surimi {
@@ -16,8 +15,9 @@ Blocks find_blocks(const Texels& texels) {
         return std::pair(tile, texel.chart);
     };
     Blocks blocks;
-    blocks.order.resize(texels.texels.size());
-    std::iota(blocks.order.begin(), blocks.order.end(), 0u);
+    blocks.order.reserve(texels.texels.size());
+    for (uint32_t i = 0; i < texels.texels.size(); ++i)
+        if (!texels.texels[i].is_inside()) blocks.order.push_back(i);
     std::ranges::sort(blocks.order, [&](uint32_t a, uint32_t b) {
         const auto key_a = key(a), key_b = key(b);
         return key_a < key_b || (key_a == key_b && a < b);

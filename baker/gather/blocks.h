@@ -22,6 +22,7 @@ struct Blocks {
     }
 };
 
+/// Of all texels that are not inside other geometry.
 Blocks find_blocks(const Texels& texels);
 
 }  // namespace surimi

@@ -44,27 +44,6 @@ struct LiftedPiece {
     }
 };
 
-void add_contacts(const RayScene& rays, std::span<const BoxedTriangle> triangles, const TexelSurface& surface,
-                  std::vector<TexelSurface::Crossing>& lines) {
-    if (triangles.empty()) return;
-    Box box;
-    surface.for_each_corner([&](const SurfacePoint& corner) { box.add(rays.ray_origin(corner) - rays.center()); });
-    for (size_t i = 0; i < surface.pieces().size(); ++i) {
-        const LiftedPiece piece(rays, surface, i);
-        for (const BoxedTriangle& triangle : triangles) {
-            if (!meet(triangle.low, triangle.high, box)) continue;
-            std::array<Vec3, 2> ends;
-            size_t count = 0;
-            for (size_t k = 0; k < 3; ++k) {
-                const Vec3 &a = triangle.corners[k], &b = triangle.corners[(k + 1) % 3];
-                const double from = piece.height(a), to = piece.height(b);
-                if ((from > 0) != (to > 0)) ends[count++] = a + (b - a) * (from / (from - to));
-            }
-            if (count == 2) piece.add(ends[0], ends[1], rays.center(), lines);
-        }
-    }
-}
-
 }  // namespace
 
 std::vector<BoxedTriangle> triangles_around(const RayScene& rays, std::span<const Vec3> places) {
@@ -85,12 +64,37 @@ std::vector<BoxedTriangle> triangles_around(const RayScene& rays, std::span<cons
     return found;
 }
 
+void find_contacts(const RayScene& rays, std::span<const BoxedTriangle> triangles, const TexelSurface& surface,
+                   std::vector<TexelSurface::Crossing>& lines) {
+    lines.clear();
+    if (triangles.empty()) return;
+    Box box;
+    surface.for_each_corner([&](const SurfacePoint& corner) { box.add(rays.ray_origin(corner) - rays.center()); });
+    for (size_t i = 0; i < surface.pieces().size(); ++i) {
+        const LiftedPiece piece(rays, surface, i);
+        for (const BoxedTriangle& triangle : triangles) {
+            if (!meet(triangle.low, triangle.high, box)) continue;
+            std::array<Vec3, 2> ends;
+            size_t count = 0;
+            for (size_t k = 0; k < 3; ++k) {
+                const Vec3 &a = triangle.corners[k], &b = triangle.corners[(k + 1) % 3];
+                const double from = piece.height(a), to = piece.height(b);
+                if ((from > 0) != (to > 0)) ends[count++] = a + (b - a) * (from / (from - to));
+            }
+            if (count == 2) piece.add(ends[0], ends[1], rays.center(), lines);
+        }
+    }
+}
+
+TexelSurface::CutResult cut_along(std::span<const TexelSurface::Crossing> contacts, TexelSurface& surface) {
+    return surface.cut(contacts, least_part, most_pieces);
+}
+
 TexelSurface::CutResult cut_at_contacts(const RayScene& rays, std::span<const BoxedTriangle> triangles,
                                         TexelSurface& surface) {
     thread_local std::vector<TexelSurface::Crossing> lines;
-    lines.clear();
-    add_contacts(rays, triangles, surface, lines);
-    return surface.cut(lines, least_part, most_pieces);
+    find_contacts(rays, triangles, surface, lines);
+    return cut_along(lines, surface);
 }
 
 }  // namespace surimi

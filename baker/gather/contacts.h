@@ -20,8 +20,15 @@ struct BoxedTriangle {
 /// The triangles whose boxes meet that of the places.
 std::vector<BoxedTriangle> triangles_around(const RayScene& rays, std::span<const Vec3> places);
 
-/// Cuts the texel where the triangles cross the places that rays from it start from, as long as there are few enough
-/// parts; see TexelSurface::cut. `triangles`: all that come near it.
+/// The segments in which the triangles cross the places that rays from the texel start from (M57), into `lines`, and
+/// some that pass close by. `triangles`: all that come near it.
+void find_contacts(const RayScene& rays, std::span<const BoxedTriangle> triangles, const TexelSurface& surface,
+                   std::vector<TexelSurface::Crossing>& lines);
+
+/// Cuts the texel along contacts, as long as there are few enough parts; see TexelSurface::cut.
+TexelSurface::CutResult cut_along(std::span<const TexelSurface::Crossing> contacts, TexelSurface& surface);
+
+/// Both.
 TexelSurface::CutResult cut_at_contacts(const RayScene& rays, std::span<const BoxedTriangle> triangles,
                                         TexelSurface& surface);
 

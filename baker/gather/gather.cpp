@@ -86,7 +86,7 @@ void light_members(Gathering& g, std::span<const uint32_t> members, std::span<co
                    GatherStatistics& statistics) {
     thread_local BlockWorkspace work;
     std::vector<LitTexel> texels(members.size());
-    BlockSurfaces block = block_surfaces(g.setup.scene, g.atlas, g.texels, g.setup.rays, members);
+    BlockSurfaces block = block_surfaces(g.setup, g.atlas, g.texels, members);
     for (const uint32_t number : members) block.is_border.push_back(is_at_border(g, number));
     light_block(g.setup, block, footprints, work, texels, statistics);
     for (size_t i = 0; i < members.size(); ++i) g.lit[members[i]] = texels[i];
@@ -148,7 +148,7 @@ Gathered gather(const Scene& scene, const Atlas& atlas, const Texels& texels, co
     g.lit.resize(texels.texels.size());
     g.parts.resize((g.blocks.count() + Gathering::grain - 1) / Gathering::grain);
     g.number_at.assign(static_cast<size_t>(texels.width) * static_cast<size_t>(texels.height), Gathering::nobody);
-    for (uint32_t i = 0; i < texels.texels.size(); ++i) g.number_at[texels.texels[i].index] = i;
+    for (const uint32_t i : g.blocks.order) g.number_at[texels.texels[i].index] = i;
 
     for_each_block(g, part_of(progress, 0, 2),
                    [&](size_t b, GatherStatistics& statistics) { light_members(g, g.blocks[b], {}, statistics); });

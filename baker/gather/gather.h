@@ -56,8 +56,8 @@ struct Gathered {
 };
 
 /// Irradiance that `scene.monitors[monitor]` sends to every texel. Texels that it cannot light (all points behind the
-/// monitor or with the monitor below the horizon) get zeros and cost no ray. Each texel's random numbers depend on its
-/// page and index, the monitor's channel and the seed alone.
+/// monitor or with the monitor below the horizon) and texels inside other geometry get zeros and cost no ray. Each
+/// texel's random numbers depend on its page and index, the monitor's channel and the seed alone.
 Gathered gather(const Scene& scene, const Atlas& atlas, const Texels& texels, const RayScene& rays,
                 const Silhouettes& silhouettes, size_t monitor, const GatherSettings& settings,
                 const Progress& progress);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "baker/gather/cover.h"
 #include "runtime/base/parallel.h"
 #include "runtime/scene/texture.h"
 
@@ -86,6 +87,7 @@ MonitorSetup set_up(const Scene& scene, const RayScene& rays, const Silhouettes&
                        panels_of(light, rays),
                        {},
                        MonitorSampler(light)};
+    if (settings.clears_covers) clear_covers(rays, monitor, setup.panels);
     for (const Panel& panel : setup.panels) setup.cuts.push_back(cut_edges(scene, rays, panel, monitor));
     return setup;
 }

@@ -11,7 +11,8 @@ Channel visibility_channel(const Texels& texels, const std::vector<IrradianceEst
     for (size_t i = 0; i < texels.texels.size(); ++i) {
         const size_t index = texels.texels[i].index;
         const IrradianceEstimate& e = estimates[i];
-        channel.state.pixels[index] = e.unshadowed > 0 ? TexelState::covered : TexelState::unlit;
+        const TexelState without_light = texels.texels[i].is_inside() ? TexelState::inside : TexelState::unlit;
+        channel.state.pixels[index] = e.unshadowed > 0 ? TexelState::covered : without_light;
         if (e.unshadowed > 0) channel.visibility.pixels[index] = std::clamp(e.shadowed / e.unshadowed, 0.f, 1.f);
     }
     return channel;

@@ -9,7 +9,7 @@
 
 namespace surimi {
 
-/// V = S / E (M3) where E > 0; other texels are unlit, those without a surface empty.
+/// V = S / E (M3) where E > 0; other texels are unlit or inside, those without a surface empty.
 Channel visibility_channel(const Texels& texels, const std::vector<IrradianceEstimate>& estimates);
 
 }  // namespace surimi

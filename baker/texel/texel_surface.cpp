@@ -291,4 +291,23 @@ TexelSurface::CutResult TexelSurface::cut(std::span<const Crossing> crossings, d
     return {true, true};
 }
 
+void TexelSurface::keep(uint32_t pieces) {
+    const std::vector<Piece> all = std::exchange(pieces_, {});
+    total_ = 0;
+    for (size_t i = 0; i < all.size(); ++i) {
+        if ((pieces >> i & 1u) == 0) continue;
+        total_ += all[i].cumulative - (i == 0 ? 0 : all[i - 1].cumulative);
+        pieces_.push_back(all[i]);
+        pieces_.back().cumulative = total_;
+    }
+    if (area_ > 0) area_ = total_;
+}
+
+void TexelSurface::turn_over() {
+    for (Piece& piece : pieces_) {
+        piece.geometric_normal = -piece.geometric_normal;
+        piece.normal = {-piece.normal.origin, -piece.normal.edge_u, -piece.normal.edge_v};
+    }
+}
+
 }  // namespace surimi

@@ -72,6 +72,12 @@ class TexelSurface {
     };
     CutResult cut(std::span<const Crossing> crossings, double least, size_t most);
 
+    /// Leaves the pieces whose bits are set, of 32 at most; there must be one. Area and shares become theirs.
+    void keep(uint32_t pieces);
+
+    /// Its back becomes its front: normals are reversed.
+    void turn_over();
+
     /// m^2 of surface under the texel; 0 for a texel that is only touched.
     double area() const { return area_; }
 

@@ -12,12 +12,19 @@
 
 namespace surimi {
 
-/// One texel that at least one triangle touches.
+/// One texel that at least one triangle touches. `free_pieces` and `may_turn` are for find_exposures() to say.
 struct Texel {
     uint32_t index = 0;  ///< y * width + x; with the page, it keys the random numbers
     uint32_t chart = 0;
     uint32_t first = 0;  ///< its triangles are Texels::triangles[first, first + count)
     uint32_t count = 0;
+
+    static constexpr uint32_t all_pieces = 0xffffff;
+    /// Bit i: piece i of its surface, cut at contacts, is not inside other geometry. all_pieces: nothing of it is.
+    uint32_t free_pieces = all_pieces;
+    bool may_turn = false;  ///< its back is lit by a monitor that cannot light its front
+
+    bool is_inside() const { return free_pieces == 0; }
 };
 
 /// Of one page. Sorted by index; each index at most once.

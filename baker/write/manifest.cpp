@@ -103,7 +103,8 @@ Json monitors_section(const Scene& scene) {
 
 Json texels_section(const Scene& scene, const Bake& bake) {
     constexpr std::array states{std::pair{"covered", TexelState::covered}, std::pair{"unlit", TexelState::unlit},
-                                std::pair{"filled", TexelState::filled}, std::pair{"empty", TexelState::empty}};
+                                std::pair{"inside", TexelState::inside}, std::pair{"filled", TexelState::filled},
+                                std::pair{"empty", TexelState::empty}};
     Json section = Json::object();
     for (const Monitor& monitor : scene.monitors) {
         for (const auto& [name, state] : states) {

@@ -4,6 +4,7 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <vector>
@@ -14,8 +15,9 @@
 namespace surimi {
 namespace {
 
-constexpr unsigned ordinary_mask = 1u << 3;  // bits 0 to 2 belong to the monitors
-constexpr unsigned everything = 0xfu;
+constexpr unsigned solid_mask = 1u << 3;  // bits 0 to 2 belong to the monitors
+constexpr unsigned cutout_mask = 1u << 4;
+constexpr unsigned everything = 0x1fu;
 
 }  // namespace
 
@@ -84,7 +86,8 @@ void RayScene::State::attach(const std::vector<Vec3>& positions, const std::vect
 
 void RayScene::State::attach_surface(uint32_t index) {
     const Surface& surface = scene.surfaces[index];
-    const unsigned mask = surface.monitor < 0 ? ordinary_mask : 1u << static_cast<unsigned>(surface.monitor);
+    const unsigned ordinary = is_cutout(scene, surface) ? cutout_mask : solid_mask;
+    const unsigned mask = surface.monitor < 0 ? ordinary : 1u << static_cast<unsigned>(surface.monitor);
     if (!surface.triangles.empty()) attach(surface.positions, surface.triangles, mask, index);
 }
 
@@ -245,6 +248,29 @@ std::array<Vec3, 3> RayScene::corners_of(const TriangleRef& triangle) const {
     for (size_t i = 0; i < 3; ++i)
         corners[i] = surface.positions[surface.triangles[triangle.triangle][i]] - state_->center;
     return corners;
+}
+
+bool RayScene::starts_inside(const Vec3& origin, const Vec3& direction) const {
+    constexpr int most_faces = 64;  // a ray that has met so many is taken to be outside
+    int exits = 0;                  // less entries
+    float start = 0;
+    for (int i = 0; i < most_faces; ++i) {
+        RTCRayHit query;
+        set_ray(query.ray, origin - state_->center, direction, INFINITY, solid_mask);
+        query.ray.tnear = start;
+        query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+        query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        rtcIntersect1(state_->handle, &context, &query);
+        if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
+        const Vec3 normal(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
+        exits += glm::dot(normal, direction) > 0 ? 1 : -1;
+        if (exits > 0) return true;
+        // Past the face by more than the distance is rounded; faces that lie in one another count once.
+        start = std::nextafter(query.ray.tfar * (1 + 4 * std::numeric_limits<float>::epsilon()), INFINITY);
+    }
+    return false;
 }
 
 std::optional<Hit> RayScene::closest_hit(const Vec3& origin, const Vec3& direction) const {

@@ -81,6 +81,10 @@ class RayScene {
     /// The corners of a triangle as rays meet it, monitors' panels among them, relative to center().
     std::array<Vec3, 3> corners_of(const TriangleRef& triangle) const;
 
+    /// Does a ray from `origin` come out of something that it never went into? At some place along it, it has then met
+    /// more back faces than front faces. Monitors and alpha-masked surfaces do not count.
+    bool starts_inside(const Vec3& origin, const Vec3& direction) const;
+
     /// Nearest surface along a ray; alpha-masked holes are not hit.
     std::optional<Hit> closest_hit(const Vec3& origin, const Vec3& direction) const;
 

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "baker/gather/exposure.h"
+
+#include <algorithm>
+#include <array>
+
+#include "baker/gather/blocks.h"
+#include "baker/gather/contacts.h"
+#include "baker/gather/enclosure.h"
+#include "baker/gather/footprint.h"
+#include "runtime/base/parallel.h"
+#include "runtime/base/random.h"
+
+namespace surimi {
+namespace {
+
+SurfacePoint turned(SurfacePoint point) {
+    point.normal = -point.normal;
+    point.geometric_normal = -point.geometric_normal;
+    return point;
+}
+
+}  // namespace
+
+double unshadowed_at(std::span<const Panel> panels, const RayScene& rays, const SurfacePoint& point) {
+    double sum = 0;
+    for (const Panel& panel : panels) sum += unshadowed_from(panel, point.position - rays.center(), point.normal);
+    return sum;
+}
+
+bool has_lit_corner(std::span<const Panel> panels, const RayScene& rays, const TexelSurface& surface) {
+    bool is_lit = false;
+    surface.for_each_corner(
+        [&](const SurfacePoint& corner) { is_lit = is_lit || unshadowed_at(panels, rays, corner) > 0; });
+    return is_lit;
+}
+
+namespace {
+
+std::vector<BoxedTriangle> triangles_at(const RayScene& rays, const TexelSurface& surface) {
+    std::vector<Vec3> places;
+    surface.for_each_corner([&](const SurfacePoint& p) { places.push_back(rays.ray_origin(p) - rays.center()); });
+    return triangles_around(rays, places);
+}
+
+bool is_lit(std::span<const Panel> panels, const RayScene& rays, const TexelSurface& surface) {
+    return unshadowed_at(panels, rays, surface.center()) > 0 || has_lit_corner(panels, rays, surface);
+}
+
+}  // namespace
+
+TexelSurface exposed_surface(const Receivers& receivers, const Texel& texel, std::span<const Panel> panels) {
+    const RayScene& rays = receivers.rays;
+    TexelSurface surface(receivers.scene, receivers.atlas, receivers.texels, texel);
+    if (texel.may_turn && !is_lit(panels, rays, surface)) {
+        TexelSurface back = surface;
+        back.turn_over();
+        if (is_lit(panels, rays, back)) return back;
+    }
+    if (texel.free_pieces == Texel::all_pieces || texel.is_inside()) return surface;
+    cut_at_contacts(rays, triangles_at(rays, surface), surface);
+    surface.keep(texel.free_pieces);
+    return surface;
+}
+
+namespace {
+
+enum class Contact : uint8_t { none, touched, crossed };
+
+/// All pages' panels of all monitors, and the judge: what the texels of a block are judged by.
+struct Judging {
+    const Scene& scene;
+    const Atlas& atlas;
+    const RayScene& rays;
+    const EnclosureJudge& judge;
+    std::vector<std::vector<Panel>> panels;  // by monitor
+
+    bool is_two_sided(const Texel& texel) const {
+        return scene.surfaces[atlas.charts[texel.chart].surface].is_two_sided;
+    }
+    /// Does some monitor light the back of what it cannot light from the front, and is the back free?
+    bool may_turn(const SurfacePoint& point, uint64_t key) const {
+        const SurfacePoint back = turned(point);
+        const bool is_called_for = std::ranges::any_of(panels, [&](const std::vector<Panel>& of_monitor) {
+            return !(unshadowed_at(of_monitor, rays, point) > 0) && unshadowed_at(of_monitor, rays, back) > 0;
+        });
+        return is_called_for && !judge.is_enclosed(back, hash(key, 1));
+    }
+};
+
+/// The texels of one block, judged.
+class BlockJudge {
+  public:
+    BlockJudge(const Judging& judging, Texels& texels, std::span<const uint32_t> members,
+               std::span<const Contact> contacts)
+        : judging_(judging), texels_(texels), members_(members), contacts_(contacts) {
+        grid_.fill(-1);
+        const auto width = static_cast<uint32_t>(texels.width);
+        for (size_t i = 0; i < members.size(); ++i) {
+            const uint32_t index = texels.texels[members[i]].index;
+            grid_[index / width % tile_size * tile_size + index % width % tile_size] = static_cast<int16_t>(i);
+        }
+    }
+
+    /// Returns the number of places judged.
+    size_t run() {
+        std::vector<char> is_done(members_.size(), 0);
+        for (size_t cell = 0; cell < grid_.size(); ++cell) {
+            const int member = grid_[cell];
+            if (member < 0 || is_done[static_cast<size_t>(member)]) continue;
+            if (contact_of(member) == Contact::none)
+                judge_group(group_from(cell, is_done));
+            else
+                judge_touched(texel_of(member), contact_of(member));
+        }
+        return probes_;
+    }
+
+  private:
+    Texel& texel_of(int member) { return texels_.texels[members_[static_cast<size_t>(member)]]; }
+    Contact contact_of(int member) const { return contacts_[members_[static_cast<size_t>(member)]]; }
+
+    uint64_t key(const Texel& texel) const {
+        const auto page_size = static_cast<uint64_t>(texels_.width) * static_cast<uint64_t>(texels_.height);
+        return hash(0x696e73696465, static_cast<uint64_t>(texels_.page) * page_size + texel.index);
+    }
+
+    TexelSurface surface_of(const Texel& texel) const {
+        return TexelSurface(judging_.scene, judging_.atlas, texels_, texel);
+    }
+
+    bool is_enclosed(const SurfacePoint& point, uint64_t key) {
+        ++probes_;
+        return judging_.judge.is_enclosed(point, key);
+    }
+
+    /// Texels without contacts that hang together, side by side; marks them as done.
+    std::vector<int> group_from(size_t start, std::vector<char>& is_done) const {
+        std::vector<int> group;
+        std::vector<size_t> cells{start};
+        is_done[static_cast<size_t>(grid_[start])] = 1;
+        for (size_t next = 0; next < cells.size(); ++next) {
+            const int x = static_cast<int>(cells[next] % tile_size), y = static_cast<int>(cells[next] / tile_size);
+            group.push_back(grid_[cells[next]]);
+            for (const auto& [dx, dy] : {std::pair(1, 0), std::pair(-1, 0), std::pair(0, 1), std::pair(0, -1)}) {
+                if (x + dx < 0 || y + dy < 0 || x + dx >= tile_size || y + dy >= tile_size) continue;
+                const auto cell = static_cast<size_t>((y + dy) * tile_size + x + dx);
+                const int member = grid_[cell];
+                if (member < 0 || contact_of(member) != Contact::none || is_done[static_cast<size_t>(member)]) continue;
+                is_done[static_cast<size_t>(member)] = 1;
+                cells.push_back(cell);
+            }
+        }
+        return group;
+    }
+
+    /// One place says it, but that it is inside two more have to say too.
+    void judge_group(const std::vector<int>& group) {
+        const auto place = [&](size_t i) { return group[i * group.size() / 4]; };
+        const auto is_inside = [&](int member) {
+            const Texel& texel = texel_of(member);
+            return is_enclosed(surface_of(texel).center(), key(texel));
+        };
+        if (is_inside(place(2)) && is_inside(place(1)) && is_inside(place(3))) {
+            for (const int member : group) texel_of(member).free_pieces = 0;
+            return;
+        }
+        if (!judging_.is_two_sided(texel_of(group[0]))) return;
+        // Cards are small: which of their backs a monitor sees differs from one texel to the next.
+        for (const int member : group) judge_back(texel_of(member));
+    }
+
+    void judge_back(Texel& texel) { texel.may_turn = judging_.may_turn(surface_of(texel).center(), key(texel)); }
+
+    void judge_touched(Texel& texel, Contact contact) {
+        TexelSurface surface = surface_of(texel);
+        const SurfacePoint center = surface.center();
+        if (contact == Contact::crossed) {
+            cut_at_contacts(judging_.rays, triangles_at(judging_.rays, surface), surface);
+            texel.free_pieces = free_pieces_of(surface, key(texel));
+        } else if (is_enclosed(center, key(texel))) {
+            texel.free_pieces = 0;
+        }
+        if (!texel.is_inside() && judging_.is_two_sided(texel)) judge_back(texel);
+    }
+
+    uint32_t free_pieces_of(const TexelSurface& surface, uint64_t key) {
+        uint32_t free = 0;
+        const size_t count = surface.pieces().size();
+        for (size_t i = 0; i < count; ++i) {
+            const TexelSurface::Piece& piece = surface.pieces()[i];
+            const SurfacePoint middle =
+                TexelSurface::point_of(piece, piece.is_square ? Vec2(0.5) : Vec2(2.0 / 3, 1.0 / 3));
+            if (!is_enclosed(middle, hash(key, i))) free |= 1u << i;
+        }
+        return free == (1u << count) - 1 ? Texel::all_pieces : free;
+    }
+
+    const Judging& judging_;
+    Texels& texels_;
+    std::span<const uint32_t> members_;
+    std::span<const Contact> contacts_;  // by number of the texel
+    std::array<int16_t, tile_size * tile_size> grid_{};
+    size_t probes_ = 0;
+};
+
+constexpr size_t grain = 8;  // blocks; a few milliseconds
+
+/// What touches each texel of a page.
+std::vector<Contact> find_touched(const Receivers& receivers, const Blocks& blocks) {
+    std::vector<Contact> contacts(receivers.texels.texels.size(), Contact::none);
+    parallel_for(blocks.count(), grain, [&](size_t b) {
+        thread_local std::vector<TexelSurface::Crossing> lines;
+        std::vector<TexelSurface> surfaces;
+        std::vector<Vec3> places;
+        for (const uint32_t number : blocks[b]) {
+            surfaces.emplace_back(receivers.scene, receivers.atlas, receivers.texels, receivers.texels.texels[number]);
+            surfaces.back().for_each_corner([&](const SurfacePoint& corner) {
+                places.push_back(receivers.rays.ray_origin(corner) - receivers.rays.center());
+            });
+        }
+        const std::vector<BoxedTriangle> around = triangles_around(receivers.rays, places);
+        for (size_t i = 0; i < surfaces.size() && !around.empty(); ++i) {
+            find_contacts(receivers.rays, around, surfaces[i], lines);
+            if (lines.empty()) continue;
+            const TexelSurface::CutResult cut = cut_along(lines, surfaces[i]);
+            contacts[blocks[b][i]] = cut.is_cut && cut.is_whole ? Contact::crossed : Contact::touched;
+        }
+    });
+    return contacts;
+}
+
+}  // namespace
+
+ExposureCounts find_exposures(const Scene& scene, const Atlas& atlas, const RayScene& rays, std::span<Texels> pages) {
+    ExposureCounts counts;
+    std::vector<Blocks> blocks;
+    std::vector<std::vector<Contact>> contacts;
+    for (const Texels& page : pages) {
+        blocks.push_back(find_blocks(page));
+        contacts.push_back(find_touched({scene, atlas, page, rays}, blocks.back()));
+        counts.crossed += static_cast<size_t>(std::ranges::count(contacts.back(), Contact::crossed));
+        counts.touched += static_cast<size_t>(std::ranges::count(contacts.back(), Contact::touched));
+    }
+    counts.touched += counts.crossed;
+    const bool has_two_sided =
+        std::ranges::any_of(scene.surfaces, [](const Surface& surface) { return surface.is_two_sided; });
+    if (counts.crossed == 0 && !has_two_sided) return counts;
+    const EnclosureJudge judge(scene, rays);
+    if (!judge.is_reliable()) {
+        counts.warnings.push_back(
+            "monitors stand inside geometry by its normals: most rays from them meet back faces, so that texels inside "
+            "other geometry cannot be told; if the room's faces point outwards, flip them");
+        return counts;
+    }
+    Judging judging{scene, atlas, rays, judge, {}};
+    for (const Monitor& monitor : scene.monitors) judging.panels.push_back(panels_of(monitor, rays));
+    for (size_t p = 0; p < pages.size(); ++p) {
+        std::vector<size_t> probes(blocks[p].count(), 0);
+        parallel_for(blocks[p].count(), grain,
+                     [&](size_t b) { probes[b] = BlockJudge(judging, pages[p], blocks[p][b], contacts[p]).run(); });
+        for (const size_t of_block : probes) counts.probes += of_block;
+        for (const Texel& texel : pages[p].texels) {
+            counts.inside += texel.is_inside() ? 1 : 0;
+            counts.partly += !texel.is_inside() && texel.free_pieces != Texel::all_pieces ? 1 : 0;
+            counts.turning += texel.may_turn ? 1 : 0;
+        }
+    }
+    return counts;
+}
+
+}  // namespace surimi
