@@ -55,7 +55,7 @@ TEST(Foliage, LetsLightThroughItsHolesExactly_M3) {
     const BakeSettings settings = of_size(64);
     const Bake baked = bake(stage.scene, settings, {});
     const Misses misses = MapJudge(stage, baked).compare_texels(settings.gather.error);
-    EXPECT_GT(misses.checked, 500u);
+    EXPECT_GT(misses.checked, static_cast<size_t>(test::cases(500)));
     EXPECT_LE(misses.wrong, misses.checked / 1000) << misses.text();
 }
 
@@ -68,7 +68,7 @@ TEST(Foliage, LitFromBehindIsNoInsideOfAnything_M3) {
     ArtefactScene floor = stage;
     floor.surfaces = {stage.surfaces[0]};
     const Misses misses = MapJudge(floor, baked).compare_texels(settings.gather.error);
-    EXPECT_GT(misses.checked, 500u);
+    EXPECT_GT(misses.checked, static_cast<size_t>(test::cases(500)));
     EXPECT_LE(misses.wrong, misses.checked / 1000) << misses.text();
 }
 

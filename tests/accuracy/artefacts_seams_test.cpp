@@ -55,7 +55,7 @@ void expect_no_seam(Cut cut) {
     EXPECT_GT(largest_step, 0.02);  // or there was nothing to remove
     const double error = GatherSettings{}.error;
     const test::Misses texels = test::MapJudge(stage, baked).compare_texels(error);
-    EXPECT_GT(texels.checked, 1000u);
+    EXPECT_GT(texels.checked, static_cast<size_t>(test::cases(1000)));
     EXPECT_LE(texels.wrong, at_joint.size() + texels.checked / 1000) << texels.text();
     EXPECT_LE(texels.largest, largest_step + error) << texels.text();
 }
@@ -90,9 +90,8 @@ TEST(SeamSurvey, FindsTheStepsOfAPlaneInTwoCharts) {
     const std::vector<double> expected = test::joint_jumps(stage, baked, 1000);
     EXPECT_GT(found.jumps.size(), 100u);
     EXPECT_NEAR(found.largest(), *std::max_element(expected.begin(), expected.end()), 0.01);
-    EXPECT_TRUE(
-        test::find_seam_edges(test::box_with_hard_edges().scene, bake(test::box_with_hard_edges().scene, {}, {}).atlas)
-            .empty());
+    const Scene box = test::box_with_hard_edges().scene;
+    EXPECT_TRUE(test::find_seam_edges(box, unwrap(box, settings_of(Cut::pages).unwrap, {})).empty());
 }
 
 TEST(Seams, HardEdgesAreLeftAloneBitForBit) {

@@ -41,7 +41,7 @@ TEST(TwoTrianglesInATexel, WithTwoShadowsAreWeighedByTheirLight_M3) {
     const BakeSettings settings = own_charts();
     const Bake baked = bake(stage.scene, settings, {});
     const Misses misses = MapJudge(stage, baked).compare_texels(settings.gather.error);
-    EXPECT_GT(misses.checked, 100u);
+    EXPECT_GT(misses.checked, static_cast<size_t>(test::cases(100)));
     EXPECT_EQ(misses.wrong, 0u) << misses.text();
     for (int y = 5; y < 11; ++y) {
         const float v = baked.pages[0].map.visibility.at(10, y).x;
@@ -80,7 +80,7 @@ TEST(TexelAtTheOrigin, IsMeasuredLikeAnyOther_M3) {
     }
     EXPECT_EQ(found, 1u);
     const Misses misses = MapJudge(stage, baked).compare_texels(settings.gather.error);
-    EXPECT_GT(misses.checked, 250u);
+    EXPECT_GT(misses.checked, static_cast<size_t>(test::cases(250)));
     EXPECT_EQ(misses.wrong, 0u) << misses.text();
 }
 

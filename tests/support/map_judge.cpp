@@ -45,18 +45,6 @@ Vec3 weights_in_space(const Surface& surface, uint32_t triangle, const Vec3& pla
            glm::dot(normal, normal);
 }
 
-/// Does the flat surface that `point` is on go on at `place`?
-bool goes_on_at(const Scene& scene, const SurfacePoint& point, const Vec3& place) {
-    const Surface& surface = scene.surfaces[point.triangle.surface];
-    for (uint32_t t = 0; t < surface.triangles.size(); ++t) {
-        const SurfacePoint corner = surface_point(scene, {point.triangle.surface, t}, {1, 0, 0});
-        if (glm::dot(corner.geometric_normal, point.geometric_normal) < 1 - 1e-9) continue;
-        if (std::abs(glm::dot(corner.position - place, point.geometric_normal)) > 1e-6) continue;
-        if (is_within(weights_in_space(surface, t, place), 1e-9)) return true;
-    }
-    return false;
-}
-
 /// A place of a joint on one of its sides.
 struct JointPlace {
     TriangleRef triangle;
@@ -163,9 +151,14 @@ Misses MapJudge::compare_texels(double error) const {
             if (std::count(stage_.surfaces.begin(), stage_.surfaces.end(), surface) == 0) continue;
             all.push_back({&texels, &texel, {}, {}});
         }
+    if (is_slow_build) std::erase_if(all, [](const Measured& m) { return hash(m.texel->index) % 10 != 0; });
     parallel_for(all.size(), 16, [&](size_t i) {
-        all[i].coarse = average(*all[i].texels, *all[i].texel, 4);
-        all[i].fine = average(*all[i].texels, *all[i].texel, 8);
+        // Finer where borders of solids or of shadows cross the texel.
+        for (int side = 4; side <= 16; side *= 2) {
+            all[i].coarse = average(*all[i].texels, *all[i].texel, side);
+            all[i].fine = average(*all[i].texels, *all[i].texel, 2 * side);
+            if (std::abs(all[i].fine.visibility - all[i].coarse.visibility) < error / 4) break;
+        }
     });
     Misses misses;
     for (const auto& [texels, texel, coarse, fine] : all) {
@@ -178,25 +171,35 @@ Misses MapJudge::compare_texels(double error) const {
     return misses;
 }
 
-bool MapJudge::is_plain(const SurfacePoint& point, double reach, double value) const {
-    const Vec3 n = point.geometric_normal;
-    const Vec3 u = normalize_or(glm::cross(n, std::abs(n.x) < 0.6 ? Vec3(1, 0, 0) : Vec3(0, 1, 0)), {1, 0, 0});
-    const Vec3 v = glm::cross(n, u);
-    for (int i = 0; i < 24; ++i) {
-        const double angle = pi * i / 6, radius = reach * (i < 12 ? 0.5 : 1);
-        SurfacePoint near = point;
-        near.position += radius * (std::cos(angle) * u + std::sin(angle) * v);
-        if (!goes_on_at(stage_.scene, point, near.position)) continue;
-        const std::optional<double> there = truth(near);
-        if (there && std::abs(*there - value) > 1e-9) return false;
+std::vector<Image<MapJudge::Tone>> MapJudge::tones() const {
+    std::vector<Image<Tone>> pages;
+    for (const Texels& texels : texels_) {
+        Image<Tone>& page = pages.emplace_back(texels.width, texels.height, Tone::none);
+        parallel_for(texels.texels.size(), 16, [&](size_t i) {
+            const Texel& texel = texels.texels[i];
+            const uint32_t surface = bake_.atlas.charts[texel.chart].surface;
+            if (std::count(stage_.surfaces.begin(), stage_.surfaces.end(), surface) == 0) return;
+            for (const TexelPlace& place : places_of(stage_.scene, bake_.atlas, texels, texel, 4)) {
+                const std::optional<double> value = truth(place.point);
+                if (!value) continue;
+                const Tone tone = tone_of(*value);
+                if (page.pixels[texel.index] == Tone::none) page.pixels[texel.index] = tone;
+                if (page.pixels[texel.index] != tone) page.pixels[texel.index] = Tone::mixed;
+            }
+        });
     }
-    return true;
+    return pages;
+}
+
+MapJudge::Tone MapJudge::tone_of(double visibility) {
+    constexpr double rounding = 1e-9;
+    if (visibility < rounding) return Tone::black;
+    return visibility > 1 - rounding ? Tone::white : Tone::mixed;
 }
 
 Misses MapJudge::compare_plain_reads(size_t tries) const {
     constexpr double rounding = 1e-6;
-    // A read takes in texels whose centres are within a texel; each is an average over half a texel more.
-    const double texels_in_reach = 1.5 * std::sqrt(2.0);
+    const std::vector<Image<Tone>> tones = this->tones();
     Misses misses;
     Choice choice{Random{17}};
     for (size_t i = 0; i < tries; ++i) {
@@ -207,14 +210,21 @@ Misses MapJudge::compare_plain_reads(size_t tries) const {
         const Vec3 weights(1 - root, root * (1 - r), root * r);
         const SurfacePoint point = surface_point(stage_.scene, where, weights);
         const std::optional<double> value = truth(point);
-        if (!value || std::min(*value, 1 - *value) > 1e-9) continue;
-        const SurfaceUv& uv = bake_.atlas.surfaces[s];
-        const double density = bake_.atlas.charts[uv.chart[where.triangle]].texels_per_metre;
-        const double plain = std::round(*value);
-        if (!(density > 0) || !is_plain(point, texels_in_reach / density, plain)) continue;
-        misses.add(read_map(bake_, where, weights), plain, rounding, place_of(stage_.scene, point));
+        if (!value || tone_of(*value) == Tone::mixed) continue;
+        const Image<Tone>& page = tones[static_cast<size_t>(bake_.atlas.surfaces[s].page)];
+        if (!is_plain(page, uv_at(bake_.atlas, where, weights), tone_of(*value))) continue;
+        misses.add(read_map(bake_, where, weights), std::round(*value), rounding, place_of(stage_.scene, point));
     }
     return misses;
+}
+
+bool MapJudge::is_plain(const Image<Tone>& page, const Vec2& uv, Tone tone) {
+    const int x0 = static_cast<int>(std::floor(uv.x * page.width - 0.5)) - 1;
+    const int y0 = static_cast<int>(std::floor(uv.y * page.height - 0.5)) - 1;
+    for (int y = std::max(y0, 0); y < std::min(y0 + 4, page.height); ++y)
+        for (int x = std::max(x0, 0); x < std::min(x0 + 4, page.width); ++x)
+            if (page.at(x, y) != tone && page.at(x, y) != Tone::none) return false;
+    return true;
 }
 
 Misses MapJudge::compare_with(uint32_t surface, double value, double tolerance) const {

@@ -3,6 +3,7 @@
 // and what a shader reads on both sides of a joint.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -49,11 +50,12 @@ class MapJudge {
     std::optional<double> truth(const SurfacePoint& point) const;
 
     /// Every measured texel of the judged surfaces, against the average over those of its places that can be seen.
-    /// Texels without such places are not counted. The tolerance is `error` and what a coarser grid of places differs.
+    /// Texels without such places are not counted; with sanitizers, nine in ten are not. The tolerance is `error` and
+    /// what a coarser grid of places differs.
     Misses compare_texels(double error) const;
 
-    /// Reads at random places that can be seen and where the visibility all around, as far as a read and its texels
-    /// reach, is exactly 1 or exactly 0: there it must be that, to the rounding of a float. For flat surfaces.
+    /// Reads at random places that can be seen where all that can be seen of the texels that are read, and of those
+    /// around them, is exactly lit, or exactly dark: there a read must be that, to the rounding of a float.
     Misses compare_plain_reads(size_t tries) const;
 
     /// All measured texels of a judged surface against one value.
@@ -68,7 +70,12 @@ class MapJudge {
         double light = 0;  ///< 0: nothing can be seen
     };
     Average average(const Texels& texels, const Texel& texel, int side) const;
-    bool is_plain(const SurfacePoint& point, double reach, double value) const;
+    /// What can be seen of a texel.
+    enum class Tone : uint8_t { none, black, white, mixed };
+    static Tone tone_of(double visibility);
+    std::vector<Image<Tone>> tones() const;  ///< by page
+    /// Have the texels of a bilinear read and a ring around them this tone, or none?
+    static bool is_plain(const Image<Tone>& page, const Vec2& uv, Tone tone);
 
     const ArtefactScene& stage_;
     const Bake& bake_;
