@@ -88,7 +88,7 @@ TEST(SeamSurvey, FindsTheStepsOfAPlaneInTwoCharts) {
     ASSERT_EQ(edges.size(), 1u);  // box edges and borders are none
     const auto found = test::seam_jumps(baked, edges, 0);
     const std::vector<double> expected = test::joint_jumps(stage, baked, 1000);
-    EXPECT_GT(found.jumps.size(), 100u);
+    EXPECT_GT(found.places.size(), 100u);
     EXPECT_NEAR(found.largest(), *std::max_element(expected.begin(), expected.end()), 0.01);
     const Scene box = test::box_with_hard_edges().scene;
     EXPECT_TRUE(test::find_seam_edges(box, unwrap(box, settings_of(Cut::pages).unwrap, {})).empty());

@@ -107,31 +107,43 @@ std::vector<SeamEdge> find_seam_edges(const Scene& scene, const Atlas& atlas) {
     return seams;
 }
 
-double SeamJumps::largest() const {
-    return jumps.empty() ? 0 : static_cast<double>(jumps.back());
+double SeamJumps::quantile(double share) const {
+    if (places.empty()) return 0;
+    return places[static_cast<size_t>(share * static_cast<double>(places.size() - 1))].jump;
 }
 
-double SeamJumps::quantile(double share) const {
-    if (jumps.empty()) return 0;
-    const double at = share * static_cast<double>(jumps.size() - 1);
-    return static_cast<double>(jumps[static_cast<size_t>(at)]);
+double SeamJumps::share_over(double jump) const {
+    if (places.empty()) return 0;
+    const auto over = std::count_if(places.begin(), places.end(), [&](const SeamPlace& p) { return p.jump > jump; });
+    return static_cast<double>(over) / static_cast<double>(places.size());
+}
+
+SurfacePoint point_beside(const Scene& scene, const SeamEdge& edge, size_t side, double share) {
+    constexpr double inwards = 0.01;
+    const auto& [triangle, corners] = edge.sides[side];
+    Vec3 weights(inwards);
+    weights[static_cast<int>(corners[0])] = (1 - inwards) * (1 - share);
+    weights[static_cast<int>(corners[1])] = (1 - inwards) * share;
+    return surface_point(scene, triangle, weights);
 }
 
 SeamJumps seam_jumps(const Bake& bake, const std::vector<SeamEdge>& edges, size_t channel) {
     SeamJumps found;
-    for (const auto& [sides] : edges) {
-        const double texels = std::max(texels_along(bake, sides[0]), texels_along(bake, sides[1]));
-        const int places = std::max(1, static_cast<int>(std::ceil(4 * texels)));
-        const size_t before = found.jumps.size();
-        for (int i = 0; i < places; ++i) {
-            const double share = (i + 0.5) / places;
-            if (!is_measured(bake, sides[0], share, channel) || !is_measured(bake, sides[1], share, channel)) continue;
-            const double jump = read_along(bake, sides[0], share, channel) - read_along(bake, sides[1], share, channel);
-            found.jumps.push_back(static_cast<float>(std::abs(jump)));
+    for (size_t e = 0; e < edges.size(); ++e) {
+        const auto& [first, second] = edges[e].sides;
+        const double texels = std::max(texels_along(bake, first), texels_along(bake, second));
+        const int count = std::max(1, static_cast<int>(std::ceil(4 * texels)));
+        const size_t before = found.places.size();
+        for (int i = 0; i < count; ++i) {
+            const double share = (i + 0.5) / count;
+            if (!is_measured(bake, first, share, channel) || !is_measured(bake, second, share, channel)) continue;
+            const double jump = read_along(bake, first, share, channel) - read_along(bake, second, share, channel);
+            found.places.push_back({std::abs(jump), e, share});
         }
-        found.edges += found.jumps.size() > before;
+        found.edges += found.places.size() > before;
     }
-    std::sort(found.jumps.begin(), found.jumps.end());
+    std::stable_sort(found.places.begin(), found.places.end(),
+                     [](const SeamPlace& a, const SeamPlace& b) { return a.jump < b.jump; });
     return found;
 }
 

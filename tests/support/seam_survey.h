@@ -23,14 +23,25 @@ struct SeamEdge {
 /// and the triangles lie on different sides of the edge.
 std::vector<SeamEdge> find_seam_edges(const Scene& scene, const Atlas& atlas);
 
-struct SeamJumps {
-    size_t edges = 0;          ///< that were read at all
-    std::vector<float> jumps;  ///< sorted; at four places a texel where both sides are measured
+struct SeamPlace {
+    double jump = 0;   ///< absolute difference of the two reads
+    size_t edge = 0;   ///< index of its SeamEdge
+    double share = 0;  ///< of the way along it
+};
 
-    double largest() const;
+struct SeamJumps {
+    size_t edges = 0;               ///< that were read at all
+    std::vector<SeamPlace> places;  ///< sorted by jump; four a texel where both sides are measured
+
+    double largest() const { return places.empty() ? 0 : places.back().jump; }
     /// The jump that this share does not exceed.
     double quantile(double share) const;
+    /// Share of places that jump farther than this.
+    double share_over(double jump) const;
 };
+
+/// A point of the surface on one side of an edge, a hundredth of the way towards the triangle's third corner.
+SurfacePoint point_beside(const Scene& scene, const SeamEdge& edge, size_t side, double share);
 
 /// Differences of bilinear reads along the edges, in one channel.
 SeamJumps seam_jumps(const Bake& bake, const std::vector<SeamEdge>& edges, size_t channel);
