@@ -113,7 +113,7 @@ TEST(Manifest, MonitorsAreInWorldSpace) {
 
 TEST(Manifest, ErrorAndStatesAreOfTheMeasuredTexels) {
     const Json json = Json::parse(SmallBake().text());
-    EXPECT_EQ(json["texels"]["G"], Json({{"covered", 2}, {"unlit", 1}, {"filled", 1}, {"empty", 0}}));
+    EXPECT_EQ(json["texels"]["G"], Json({{"covered", 2}, {"unlit", 1}, {"inside", 0}, {"filled", 1}, {"empty", 0}}));
     EXPECT_EQ(json["error"]["G"]["mean"], 0.375);
     EXPECT_DOUBLE_EQ(json["error"]["G"]["rms"], std::sqrt((0.0625 + 0.25) / 2));
     EXPECT_EQ(json["error"]["G"]["max"], 0.5);
