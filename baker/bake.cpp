@@ -6,6 +6,7 @@
 
 #include "baker/gather/cover.h"
 #include "baker/monitor_warnings.h"
+#include "baker/post/gutter.h"
 #include "baker/post/ratio.h"
 #include "baker/preparation.h"
 #include "runtime/trace/ray_scene.h"
@@ -48,16 +49,19 @@ std::vector<IrradianceEstimate> of_texels(const Texels& texels, const Image<Irra
     return estimates;
 }
 
-void store_channel(BakedPage& page, const Monitor& monitor, const Atlas& atlas, const Texels& texels,
-                   const std::vector<IrradianceEstimate>& estimates) {
+/// Gives texels without a value and gutters theirs, and puts the channels of one monitor into the pages.
+void store_channels(Bake& baked, const Scene& scene, const Monitor& monitor, std::span<const Texels> texels,
+                    std::vector<Channel>& channels) {
     const auto c = static_cast<size_t>(monitor.channel);
-    Channel channel = visibility_channel(texels, estimates);
-    fill(atlas, texels, channel.visibility, channel.state);
-    for (size_t i = 0; i < channel.visibility.pixels.size(); ++i)
-        page.map.visibility.pixels[i][monitor.channel] = channel.visibility.pixels[i];
-    page.map.monitors[c] = monitor.name;
-    page.state[c] = std::move(channel.state);
-    page.irradiance[c] = as_image(texels, estimates);
+    fill(scene, baked.atlas, texels, channels, {});
+    for (size_t p = 0; p < channels.size(); ++p) {
+        grow_gutters(texels[p], channels[p], all_rings);
+        VisibilityMap& map = baked.pages[p].map;
+        for (size_t i = 0; i < map.visibility.pixels.size(); ++i)
+            map.visibility.pixels[i][monitor.channel] = channels[p].visibility.pixels[i];
+        map.monitors[c] = monitor.name;
+        baked.pages[p].state[c] = std::move(channels[p].state);
+    }
 }
 
 void append(std::vector<std::string>& lines, const std::vector<std::string>& more) {
@@ -123,14 +127,17 @@ Bake bake(const Scene& scene, const BakeSettings& settings, const Progress& prog
     for (size_t m = 0; m < scene.monitors.size(); ++m) {
         const Monitor& monitor = scene.monitors[m];
         MonitorEvidence& evidence = result.evidence.emplace_back();
+        std::vector<Channel> channels;  // by page
         for (size_t p = 0; p < texels.size(); ++p) {
             const Gathered gathered = gather(scene, result.atlas, texels[p], rays, silhouettes, m, settings.gather,
                                              part_of(progress, p, texels.size()));
             evidence.statistics.add(gathered.statistics);
             stopwatch.finish("light from " + monitor.name, gathered.statistics.rays());
-            store_channel(result.pages[p], monitor, result.atlas, texels[p], gathered.estimates);
-            stopwatch.finish("fill " + monitor.name);
+            result.pages[p].irradiance[static_cast<size_t>(monitor.channel)] = as_image(texels[p], gathered.estimates);
+            channels.push_back(visibility_channel(texels[p], gathered.estimates));
         }
+        store_channels(result, scene, monitor, texels, channels);
+        stopwatch.finish("fill " + monitor.name);
         if (settings.audit == 0) continue;
         evidence.audits = audit_pages({scene, texels, rays}, result, m, settings, progress);
         stopwatch.finish("audit of " + monitor.name);

@@ -9,6 +9,7 @@
 #include "baker/gather/audit.h"
 #include "baker/gather/blocks.h"
 #include "baker/post/fill.h"
+#include "baker/post/gutter.h"
 #include "baker/post/ratio.h"
 #include "runtime/base/random.h"
 
@@ -135,14 +136,20 @@ Calibration calibrate(const Scene& scene, const Preparation& preparation, size_t
     return result;
 }
 
-double calibrate_fill(const Preparation& preparation) {
+double calibrate_fill(const Scene& scene, const Preparation& preparation) {
     const Timer timer;
+    std::vector<Channel> channels;
     for (const Texels& texels : preparation.texels) {
-        IrradianceEstimate lit;
-        lit.unshadowed = lit.shadowed = 1;
-        Channel channel = visibility_channel(texels, std::vector<IrradianceEstimate>(texels.texels.size(), lit));
-        fill(preparation.atlas, texels, channel.visibility, channel.state);
+        std::vector<IrradianceEstimate> estimates(texels.texels.size());
+        for (size_t i = 0; i < estimates.size(); ++i) {  // every other patch is unlit: long borders, as in rooms
+            const uint32_t x = texels.texels[i].index % static_cast<uint32_t>(texels.width) / patch_size;
+            const uint32_t y = texels.texels[i].index / static_cast<uint32_t>(texels.width) / patch_size;
+            if ((x + y) % 2 == 0) estimates[i].unshadowed = estimates[i].shadowed = 1;
+        }
+        channels.push_back(visibility_channel(texels, estimates));
     }
+    fill(scene, preparation.atlas, preparation.texels, channels, {});
+    for (size_t p = 0; p < channels.size(); ++p) grow_gutters(preparation.texels[p], channels[p], all_rings);
     return timer.seconds();
 }
 

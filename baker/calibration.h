@@ -39,7 +39,7 @@ Calibration calibrate(const Scene& scene, const Preparation& preparation, size_t
                       const GatherSettings& settings, const Progress& progress);
 
 /// Seconds of wall time to make visibility of estimates and fill what has none, all pages, one monitor.
-double calibrate_fill(const Preparation& preparation);
+double calibrate_fill(const Scene& scene, const Preparation& preparation);
 
 /// Seconds for one audited texel of the first page that has light in its sample; 0 where none has.
 double calibrate_audit(const Scene& scene, const Preparation& preparation, size_t monitor,

@@ -197,7 +197,7 @@ Plan plan(const Scene& scene, const BakeSettings& settings, const Progress& prog
     }
     StageList stages(scene, settings, preparation, plan);
     stages.add_preparation();
-    const double fill_seconds = calibrate_fill(preparation);
+    const double fill_seconds = calibrate_fill(scene, preparation);
     for (size_t m = 0; m < scene.monitors.size(); ++m) {
         stages.add_monitor(m, fill_seconds);
         stages.add_audit(m, settings.audit > 0 ? calibrate_audit(scene, preparation, m, settings.gather) : 0);

@@ -71,7 +71,7 @@ std::string spend(const Scene& scene, Config& config, const Progress& progress) 
     double rest = preparation.unwrap_seconds + preparation.texels_seconds + preparation.rays_seconds +
                   preparation.silhouettes_seconds;  // the bake does it again
     for (size_t m = 0; m < scene.monitors.size(); ++m) {
-        rest += calibrate_fill(preparation);
+        rest += calibrate_fill(scene, preparation);
         if (config.bake.audit > 0)
             rest += static_cast<double>(config.bake.audit) * calibrate_audit(scene, preparation, m, gather);
     }

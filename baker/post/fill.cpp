@@ -1,88 +1,127 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "baker/post/fill.h"
 
-#include <array>
-#include <limits>
+#include <algorithm>
+#include <optional>
 #include <utility>
 #include <vector>
+
+#include "baker/post/growth.h"
+#include "baker/post/near_texels.h"
+#include "baker/post/rim.h"
+#include "baker/texel/texel_surface.h"
+#include "runtime/base/parallel.h"
 
 namespace surimi {
 namespace {
 
-constexpr uint32_t nobody = std::numeric_limits<uint32_t>::max();
-constexpr std::array<std::pair<int, int>, 8> around = {
-    {{-1, -1}, {0, -1}, {1, -1}, {-1, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1}}};
+constexpr int target_rings = 4;  // texels; bilinear reads at covered texels see one ring, two mip levels four
+constexpr int source_rings = 2;  // texels; what lies deeper in a covered region is never nearest
+constexpr size_t grain = 256;    // texels that one thread takes at a time
 
-/// Calls `visit(index of neighbour)` for the up to eight texels around `index`.
-template <class Visit>
-void for_neighbours(const Image<float>& image, size_t index, const Visit& visit) {
-    const int x = static_cast<int>(index % static_cast<size_t>(image.width));
-    const int y = static_cast<int>(index / static_cast<size_t>(image.width));
-    for (const auto& [dx, dy] : around)
-        if (x + dx >= 0 && y + dy >= 0 && x + dx < image.width && y + dy < image.height)
-            visit(image.index(x + dx, y + dy));
-}
+/// One page while it is filled.
+struct Page {
+    const Texels& texels;
+    Channel& channel;
+    std::vector<uint32_t> chart;  ///< by texel of the map, as is `owner`
+    std::vector<uint32_t> owner;  ///< the chart whose value stands there; no_chart where there is none yet
 
-/// Grows known texels outwards, a ring a round, until nothing can be reached. A texel takes the mean of its neighbours
-/// of one owner that were known before the round; among owners the one with the most such neighbours, then the lower
-/// number. `may_take(index, owner)` says whether a texel accepts an owner's value.
-template <class MayTake>
-void grow(Image<float>& visibility, std::vector<uint32_t>& owner, const MayTake& may_take) {
-    struct Gain {
-        size_t index;
-        float value;
-        uint32_t owner;
-    };
-    std::vector<size_t> front;
-    for (size_t i = 0; i < owner.size(); ++i)
-        if (owner[i] != nobody) front.push_back(i);
-    std::vector<uint32_t> round_of(owner.size(), 0);  // each candidate is looked at once a round
-    for (uint32_t round = 1; !front.empty(); ++round) {
-        std::vector<Gain> gains;
-        for (const size_t known : front) {
-            for_neighbours(visibility, known, [&](size_t i) {
-                if (owner[i] != nobody || round_of[i] == round) return;
-                round_of[i] = round;
-                std::array<std::pair<uint32_t, int>, 8> votes{};  // owner, how many
-                size_t voters = 0;
-                for_neighbours(visibility, i, [&](size_t j) {
-                    if (owner[j] == nobody || !may_take(i, owner[j])) return;
-                    size_t v = 0;
-                    while (v < voters && votes[v].first != owner[j]) ++v;
-                    if (v == voters) votes[voters++] = {owner[j], 0};
-                    ++votes[v].second;
-                });
-                if (voters == 0) return;
-                auto best = votes[0];
-                for (size_t v = 1; v < voters; ++v)
-                    if (votes[v].second > best.second ||
-                        (votes[v].second == best.second && votes[v].first < best.first))
-                        best = votes[v];
-                double sum = 0;
-                for_neighbours(visibility, i, [&](size_t j) {
-                    if (owner[j] == best.first) sum += static_cast<double>(visibility.pixels[j]);
-                });
-                gains.push_back({i, static_cast<float>(sum / best.second), best.first});
-            });
+    Page(const Texels& of, Channel& to)
+        : texels(of),
+          channel(to),
+          chart(to.visibility.pixels.size(), no_chart),
+          owner(to.visibility.pixels.size(), no_chart) {
+        for (const Texel& texel : texels.texels) {
+            chart[texel.index] = texel.chart;
+            if (channel.state.pixels[texel.index] == TexelState::covered) owner[texel.index] = texel.chart;
         }
-        front.clear();
-        for (const Gain& gain : gains) {
-            visibility.pixels[gain.index] = gain.value;
-            owner[gain.index] = gain.owner;
-            front.push_back(gain.index);
+    }
+
+    void give(const Texel& texel, float value) {
+        channel.visibility.pixels[texel.index] = value;
+        owner[texel.index] = texel.chart;
+    }
+    void grow_in_charts() { grow(channel.visibility, owner, {.only_chart = chart, .keeps_value = {}}); }
+};
+
+/// A texel of a page, by its number in Texels.
+struct TexelRef {
+    uint32_t page = 0, texel = 0;
+};
+
+/// The texels that take part in the exchange of values across the world.
+struct Rims {
+    std::vector<TexelRef> sources;  ///< covered, at the border of their chart or of what is covered
+    std::vector<TexelRef> targets;  ///< others near covered ones, of charts that have such
+};
+
+void add_rims(uint32_t number, const Page& page, const std::vector<uint8_t>& has_covered, Rims& rims) {
+    std::vector<uint64_t> kinds(page.chart.size());
+    std::vector<uint8_t> is_covered(page.chart.size());
+    for (size_t i = 0; i < kinds.size(); ++i) {
+        kinds[i] = uint64_t{page.chart[i]} << 32 | page.owner[i];
+        is_covered[i] = page.owner[i] != no_chart;
+    }
+    const std::vector<uint8_t> is_source = rim(kinds, page.texels.width, source_rings);
+    const std::vector<uint8_t> is_target = spread(std::move(is_covered), page.texels.width, target_rings);
+    for (uint32_t t = 0; t < page.texels.texels.size(); ++t) {
+        const Texel& texel = page.texels.texels[t];
+        if (page.owner[texel.index] != no_chart) {
+            if (is_source[texel.index]) rims.sources.push_back({number, t});
+        } else if (is_target[texel.index] && has_covered[texel.chart]) {
+            rims.targets.push_back({number, t});
         }
     }
 }
 
-/// Mean of the measured texels of each surface; 1 where there is none.
-std::vector<float> surface_means(const Atlas& atlas, const Texels& texels, const Image<float>& visibility,
-                                 const Image<TexelState>& state) {
+Rims find_rims(const Atlas& atlas, const std::vector<Page>& pages) {
+    std::vector<uint8_t> has_covered(atlas.charts.size(), 0);
+    for (const Page& page : pages)
+        for (const uint32_t owner : page.owner)
+            if (owner != no_chart) has_covered[owner] = 1;
+    Rims rims;
+    for (uint32_t p = 0; p < pages.size(); ++p) add_rims(p, pages[p], has_covered, rims);
+    return rims;
+}
+
+std::vector<TexelPlace> places_of(const Scene& scene, const Atlas& atlas, const std::vector<Page>& pages,
+                                  const std::vector<TexelRef>& refs) {
+    std::vector<TexelPlace> places(refs.size());
+    parallel_for(refs.size(), grain, [&](size_t i) {
+        const Page& page = pages[refs[i].page];
+        const Texel& texel = page.texels.texels[refs[i].texel];
+        const SurfacePoint center = TexelSurface(scene, atlas, page.texels, texel).center();
+        const double density = atlas.charts[texel.chart].texels_per_metre;
+        places[i] = {center.position, center.geometric_normal, density > 0 ? 1 / density : 0, texel.chart,
+                     page.channel.visibility.pixels[texel.index]};
+    });
+    return places;
+}
+
+void fill_in_space(const Scene& scene, const Atlas& atlas, std::vector<Page>& pages) {
+    const Rims rims = find_rims(atlas, pages);
+    if (rims.targets.empty() || rims.sources.empty()) return;
+    const NearTexels sources(places_of(scene, atlas, pages, rims.sources));
+    const std::vector<TexelPlace> targets = places_of(scene, atlas, pages, rims.targets);
+    std::vector<std::optional<float>> values(targets.size());
+    parallel_for(targets.size(), grain,
+                 [&](size_t i) { values[i] = sources.mean(targets[i], target_rings * targets[i].size); });
+    for (size_t i = 0; i < targets.size(); ++i) {
+        Page& page = pages[rims.targets[i].page];
+        if (values[i]) page.give(page.texels.texels[rims.targets[i].texel], *values[i]);
+    }
+}
+
+/// Mean of the covered texels of each surface; 1 where there is none.
+std::vector<float> surface_means(const Atlas& atlas, const std::vector<Page>& pages) {
     std::vector<double> sum(atlas.surfaces.size(), 0), count(atlas.surfaces.size(), 0);
-    for (const Texel& texel : texels.texels) {
-        if (state.pixels[texel.index] != TexelState::covered) continue;
-        const uint32_t surface = atlas.charts[texel.chart].surface;
-        sum[surface] += static_cast<double>(visibility.pixels[texel.index]);
-        count[surface] += 1;
+    for (const Page& page : pages) {
+        for (const Texel& texel : page.texels.texels) {
+            if (page.channel.state.pixels[texel.index] != TexelState::covered) continue;
+            const uint32_t surface = atlas.charts[texel.chart].surface;
+            sum[surface] += static_cast<double>(page.channel.visibility.pixels[texel.index]);
+            count[surface] += 1;
+        }
     }
     std::vector<float> means(atlas.surfaces.size(), 1.f);
     for (size_t s = 0; s < means.size(); ++s)
@@ -92,26 +131,17 @@ std::vector<float> surface_means(const Atlas& atlas, const Texels& texels, const
 
 }  // namespace
 
-void fill(const Atlas& atlas, const Texels& texels, Image<float>& visibility, Image<TexelState>& state) {
-    std::vector<uint32_t> chart(visibility.pixels.size(), nobody);
-    for (const Texel& texel : texels.texels) chart[texel.index] = texel.chart;
-
-    // Unlit texels, from the measured ones of their own chart.
-    std::vector<uint32_t> owner(visibility.pixels.size(), nobody);
-    for (const Texel& texel : texels.texels)
-        if (state.pixels[texel.index] == TexelState::covered) owner[texel.index] = texel.chart;
-    grow(visibility, owner, [&](size_t index, uint32_t from) { return chart[index] == from; });
-    const std::vector<float> means = surface_means(atlas, texels, visibility, state);
-    for (const Texel& texel : texels.texels) {
-        if (owner[texel.index] != nobody) continue;
-        visibility.pixels[texel.index] = means[atlas.charts[texel.chart].surface];
-        owner[texel.index] = texel.chart;
+void fill(const Scene& scene, const Atlas& atlas, std::span<const Texels> pages, std::span<Channel> channels,
+          const PostSettings& settings) {
+    std::vector<Page> all;
+    for (size_t p = 0; p < pages.size(); ++p) all.emplace_back(pages[p], channels[p]);
+    if (settings.fills_in_space) fill_in_space(scene, atlas, all);
+    const std::vector<float> means = surface_means(atlas, all);
+    for (Page& page : all) {
+        page.grow_in_charts();
+        for (const Texel& texel : page.texels.texels)
+            if (page.owner[texel.index] == no_chart) page.give(texel, means[atlas.charts[texel.chart].surface]);
     }
-
-    // Everything outside the charts, from the nearest chart.
-    grow(visibility, owner, [](size_t, uint32_t) { return true; });
-    for (size_t i = 0; i < owner.size(); ++i)
-        if (state.pixels[i] == TexelState::empty && owner[i] != nobody) state.pixels[i] = TexelState::filled;
 }
 
 }  // namespace surimi

@@ -8,32 +8,45 @@
 #include <cfenv>
 #include <limits>
 
+#include "baker/post/fill.h"
+#include "baker/post/gutter.h"
 #include "tests/support/random.h"
+#include "tests/support/scenes.h"
 
 namespace surimi {
 namespace {
 
-/// A map of one chart of 12 x 8 texels with a margin of 2.
+/// A map of 16 x 12 with one chart of 12 x 8 texels and a margin of 2: a rectangle.
 struct Map {
+    Scene scene;
     Atlas atlas;
     Texels texels;
     std::vector<IrradianceEstimate> estimates;
 
     Map() {
-        atlas.width = texels.width = 16;
-        atlas.height = texels.height = 12;
-        atlas.surfaces.resize(1);
+        test::add_quad(scene, "quad", {2, 2, 0}, {14, 2, 0}, {14, 10, 0}, {2, 10, 0});
+        atlas.width = 16;
+        atlas.height = 12;
         atlas.charts = {{0, 1.0}};
-        for (uint32_t y = 2; y < 10; ++y)
-            for (uint32_t x = 2; x < 14; ++x) texels.texels.push_back({y * 16 + x, 0, 0, 0});
+        const auto uv = [&](uint32_t corner) {
+            return Vec2f(Vec2(scene.surfaces[0].positions[corner]) / Vec2(16, 12));
+        };
+        SurfaceUv& surface = atlas.surfaces.emplace_back();
+        for (const auto& [i, j, k] : scene.surfaces[0].triangles) {
+            surface.uv.push_back({uv(i), uv(j), uv(k)});
+            surface.chart.push_back(0);
+        }
+        texels = find_texels(scene, atlas);
         estimates.resize(texels.texels.size());
     }
 
     /// Divides and fills, and checks what must hold whatever was measured.
     Channel filled() const {
+        EXPECT_EQ(texels.texels.size(), 12u * 8u);
         std::feclearexcept(FE_INVALID | FE_DIVBYZERO);
         Channel channel = visibility_channel(texels, estimates);
-        fill(atlas, texels, channel.visibility, channel.state);
+        fill(scene, atlas, {&texels, 1}, {&channel, 1}, {});
+        grow_gutters(texels, channel, all_rings);
         EXPECT_FALSE(std::fetestexcept(FE_INVALID | FE_DIVBYZERO));
         EXPECT_EQ(channel.visibility.pixels.size(), 16u * 12u);
         for (const float v : channel.visibility.pixels) EXPECT_TRUE(v >= 0 && v <= 1) << v;
