@@ -44,6 +44,21 @@ struct LiftedPiece {
     }
 };
 
+void add_contact(const LiftedPiece& piece, const BoxedTriangle& triangle, double slab, const Vec3& center,
+                 std::vector<TexelSurface::Crossing>& lines) {
+    std::array<Vec3, 2> ends;
+    size_t count = 0;
+    for (size_t k = 0; k < 3; ++k) {
+        const Vec3 &a = triangle.corners[k], &b = triangle.corners[(k + 1) % 3];
+        const double from = piece.height(a), to = piece.height(b);
+        if ((from > 0) != (to > 0)) ends[count++] = a + (b - a) * (from / (from - to));
+        const bool is_in_slab = std::min(from, to) > 0 && std::max(from, to) < slab;
+        if (is_in_slab)
+            piece.add(a - from * piece.piece.geometric_normal, b - to * piece.piece.geometric_normal, center, lines);
+    }
+    if (count == 2) piece.add(ends[0], ends[1], center, lines);
+}
+
 }  // namespace
 
 std::vector<BoxedTriangle> triangles_around(const RayScene& rays, std::span<const Vec3> places) {
@@ -65,24 +80,19 @@ std::vector<BoxedTriangle> triangles_around(const RayScene& rays, std::span<cons
 }
 
 void find_contacts(const RayScene& rays, std::span<const BoxedTriangle> triangles, const TexelSurface& surface,
-                   std::vector<TexelSurface::Crossing>& lines) {
+                   double slab, std::vector<TexelSurface::Crossing>& lines) {
     lines.clear();
     if (triangles.empty()) return;
     Box box;
-    surface.for_each_corner([&](const SurfacePoint& corner) { box.add(rays.ray_origin(corner) - rays.center()); });
+    surface.for_each_corner([&](const SurfacePoint& corner) {
+        const Vec3 place = rays.ray_origin(corner) - rays.center();
+        box.add(place);
+        if (slab > 0) box.add(place + slab * corner.geometric_normal);
+    });
     for (size_t i = 0; i < surface.pieces().size(); ++i) {
         const LiftedPiece piece(rays, surface, i);
-        for (const BoxedTriangle& triangle : triangles) {
-            if (!meet(triangle.low, triangle.high, box)) continue;
-            std::array<Vec3, 2> ends;
-            size_t count = 0;
-            for (size_t k = 0; k < 3; ++k) {
-                const Vec3 &a = triangle.corners[k], &b = triangle.corners[(k + 1) % 3];
-                const double from = piece.height(a), to = piece.height(b);
-                if ((from > 0) != (to > 0)) ends[count++] = a + (b - a) * (from / (from - to));
-            }
-            if (count == 2) piece.add(ends[0], ends[1], rays.center(), lines);
-        }
+        for (const BoxedTriangle& triangle : triangles)
+            if (meet(triangle.low, triangle.high, box)) add_contact(piece, triangle, slab, rays.center(), lines);
     }
 }
 
@@ -93,7 +103,7 @@ TexelSurface::CutResult cut_along(std::span<const TexelSurface::Crossing> contac
 TexelSurface::CutResult cut_at_contacts(const RayScene& rays, std::span<const BoxedTriangle> triangles,
                                         TexelSurface& surface) {
     thread_local std::vector<TexelSurface::Crossing> lines;
-    find_contacts(rays, triangles, surface, lines);
+    find_contacts(rays, triangles, surface, 0, lines);
     return cut_along(lines, surface);
 }
 

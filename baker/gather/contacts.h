@@ -21,14 +21,14 @@ struct BoxedTriangle {
 std::vector<BoxedTriangle> triangles_around(const RayScene& rays, std::span<const Vec3> places);
 
 /// The segments in which the triangles cross the places that rays from the texel start from (M57), into `lines`, and
-/// some that pass close by. `triangles`: all that come near it.
+/// some that pass close by; and edges that lie above them by less than `slab`, metres. `triangles`: all that come near.
 void find_contacts(const RayScene& rays, std::span<const BoxedTriangle> triangles, const TexelSurface& surface,
-                   std::vector<TexelSurface::Crossing>& lines);
+                   double slab, std::vector<TexelSurface::Crossing>& lines);
 
 /// Cuts the texel along contacts, as long as there are few enough parts; see TexelSurface::cut.
 TexelSurface::CutResult cut_along(std::span<const TexelSurface::Crossing> contacts, TexelSurface& surface);
 
-/// Both.
+/// Both, without a slab.
 TexelSurface::CutResult cut_at_contacts(const RayScene& rays, std::span<const BoxedTriangle> triangles,
                                         TexelSurface& surface);
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "baker/gather/enclosure.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "runtime/base/random.h"
+#include "runtime/scene/texture.h"
 
 namespace surimi {
 namespace {
@@ -13,6 +15,10 @@ constexpr uint32_t probe_rays = 32;
 // Legs without caps and sofas without undersides enclose what is in them but for a few directions; three walls that
 // are seen from behind enclose seven eighths.
 constexpr uint32_t most_outside = 3;
+// Half of them beside a sheet, half of those where it is short.
+constexpr uint32_t fewest_backs = 8;
+constexpr double reach = 1.5;     // texels: what a bilinear read of the other side of a sheet can meet
+constexpr double crevice = 0.25;  // texels: narrower than the map can show
 
 /// Direction i of a scrambled set over the hemisphere, by cosine: near the surface itself little is told.
 Vec3 probe_direction(const Vec3& normal, uint32_t i, const Scrambling& seeds) {
@@ -27,6 +33,7 @@ Vec3 probe_direction(const Vec3& normal, uint32_t i, const Scrambling& seeds) {
 
 EnclosureJudge::EnclosureJudge(const Scene& scene, const RayScene& rays) : scene_(scene), rays_(rays) {
     for (const Monitor& monitor : scene.monitors) samplers_.emplace_back(monitor);
+    look_from_monitors();
 }
 
 bool EnclosureJudge::sees_monitor(const SurfacePoint& point, uint64_t key) const {
@@ -45,31 +52,50 @@ bool EnclosureJudge::sees_monitor(const SurfacePoint& point, uint64_t key) const
     return false;
 }
 
-bool EnclosureJudge::is_enclosed(const SurfacePoint& point, uint64_t key) const {
-    if (sees_monitor(point, key)) return false;
-    const Vec3 origin = rays_.ray_origin(point);
-    const Scrambling seeds = scrambling(hash(key, samplers_.size()));
-    uint32_t outside = 0;
-    for (uint32_t i = 0; i < probe_rays && outside <= most_outside; ++i)
-        if (!rays_.starts_inside(origin, probe_direction(point.geometric_normal, i, seeds))) ++outside;
-    return outside <= most_outside;
+bool EnclosureJudge::is_single_sided(uint32_t surface) const {
+    const Surface& of = scene_.surfaces[surface];
+    return !of.is_two_sided && !material_of(scene_, of).double_sided;
 }
 
-bool EnclosureJudge::is_reliable() const {
-    constexpr uint32_t places = 16;
-    uint32_t inside = 0, all = 0;
+Enclosure EnclosureJudge::judge(const SurfacePoint& point, double texel_size, uint64_t key) const {
+    if (sees_monitor(point, key)) return Enclosure::free;
+    const Vec3 origin = rays_.ray_origin(point);
+    const Scrambling seeds = scrambling(hash(key, samplers_.size()));
+    uint32_t outside = 0, backs = 0;
+    double nearest = INFINITY;
+    for (uint32_t i = 0; i < probe_rays; ++i) {
+        const Way way = rays_.follow(origin, probe_direction(point.geometric_normal, i, seeds));
+        const bool is_enclosed =
+            way.comes_out || (is_closed_ && way.meets_nothing) || way.distance < crevice * texel_size;
+        if (!is_enclosed) ++outside;
+        if (way.meets_back && is_single_sided(way.surface)) {
+            ++backs;
+            nearest = std::min(nearest, way.distance);
+        }
+        if (outside > most_outside && i >= probe_rays / 4 && backs == 0) return Enclosure::free;
+    }
+    if (outside <= most_outside) return Enclosure::enclosed;
+    if (backs < fewest_backs) return Enclosure::free;
+    return nearest < reach * texel_size ? Enclosure::enclosed : Enclosure::behind_sheet;
+}
+
+void EnclosureJudge::look_from_monitors() {
+    constexpr uint32_t count = 64;  // rays of each monitor
+    uint32_t inside = 0, away = 0, all = 0;
     for (const MonitorSampler& sampler : samplers_) {
         const Scrambling seeds = scrambling(all);
-        // As far off the panel as the panel is wide, or rays would meet what it is let into.
+        // Off the panel by some of its width, or rays would meet what it is let into.
         const double step = std::sqrt(sampler.area()) / 64;
-        for (uint32_t i = 0; i < places; ++i, ++all) {
+        for (uint32_t i = 0; i < count; ++i, ++all) {
             const auto r = scrambled(sobol::point(i), seeds);
             const LightPoint light = sampler.sample(r[2], r[3]);
-            if (rays_.starts_inside(light.position + step * light.normal, probe_direction(light.normal, i, seeds)))
-                ++inside;
+            const Way way = rays_.follow(light.position + step * light.normal, probe_direction(light.normal, i, seeds));
+            inside += way.comes_out ? 1 : 0;
+            away += way.meets_nothing ? 1 : 0;
         }
     }
-    return 2 * inside <= all;
+    is_reliable_ = 2 * inside <= all;
+    is_closed_ = all > 0 && 64 * away < all;
 }
 
 }  // namespace surimi

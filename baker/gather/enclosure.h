@@ -10,27 +10,35 @@
 
 namespace surimi {
 
-/// Tells places inside other geometry from free ones.
+enum class Enclosure {
+    free,          ///< light arrives, or one can look away
+    behind_sheet,  ///< dark, and much of what it sees is the back of single-sided faces, but of none close by
+    enclosed       ///< inside something, outside the room, behind a single-sided face close by, or in a crevice
+};
+
+/// Tells places inside other geometry from free ones. Where any of eight rays to a monitor arrives a place is free.
 class EnclosureJudge {
   public:
-    /// Both must outlive it.
+    /// Both must outlive it. Costs some rays from the monitors.
     EnclosureJudge(const Scene& scene, const RayScene& rays);
 
-    /// Is the space at the front of `point` inside something? No light of any monitor arrives there, and of the rays
-    /// into the hemisphere above it nine in ten come out of something that they never went into. `key` decides the
-    /// rays. Costs eight rays a monitor where light arrives.
-    bool is_enclosed(const SurfacePoint& point, uint64_t key) const;
+    /// Of the space at the front of `point`. `texel_size`, metres, is what counts as close by; `key` decides the rays.
+    Enclosure judge(const SurfacePoint& point, double texel_size, uint64_t key) const;
 
     /// Are monitors in free space by the same measure? Where normals point out of the room they are not, and
-    /// is_enclosed means nothing.
-    bool is_reliable() const;
+    /// nothing can be judged.
+    bool is_reliable() const { return is_reliable_; }
 
   private:
+    void look_from_monitors();
     bool sees_monitor(const SurfacePoint& point, uint64_t key) const;
+    bool is_single_sided(uint32_t surface) const;
 
     const Scene& scene_;
     const RayScene& rays_;
     std::vector<MonitorSampler> samplers_;  // of Scene::monitors
+    bool is_reliable_ = true;
+    bool is_closed_ = false;  // next to no ray from a monitor leaves the scene: who can leave it is outside the room
 };
 
 }  // namespace surimi

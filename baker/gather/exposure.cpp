@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "baker/gather/blocks.h"
 #include "baker/gather/contacts.h"
@@ -37,10 +38,31 @@ bool has_lit_corner(std::span<const Panel> panels, const RayScene& rays, const T
 
 namespace {
 
-std::vector<BoxedTriangle> triangles_at(const RayScene& rays, const TexelSurface& surface) {
+constexpr double slab = 0.1;  // texels over the surface in which edges part what they hide from what they do not
+
+/// Along contacts and under the edges of what lies close over it.
+TexelSurface::CutResult cut_where_hidden(const RayScene& rays, std::span<const BoxedTriangle> triangles,
+                                         TexelSurface& surface, bool& is_touched) {
+    thread_local std::vector<TexelSurface::Crossing> lines;
+    find_contacts(rays, triangles, surface, slab * std::sqrt(surface.area()), lines);
+    is_touched = !lines.empty();
+    return cut_along(lines, surface);
+}
+
+/// Corners of the surface, lifted to where rays start from and by the slab.
+void add_places(const RayScene& rays, const TexelSurface& surface, std::vector<Vec3>& places) {
+    const double height = slab * std::sqrt(surface.area());
+    surface.for_each_corner([&](const SurfacePoint& p) {
+        places.push_back(rays.ray_origin(p) - rays.center());
+        places.push_back(places.back() + height * p.geometric_normal);
+    });
+}
+
+void cut_where_hidden(const RayScene& rays, TexelSurface& surface) {
     std::vector<Vec3> places;
-    surface.for_each_corner([&](const SurfacePoint& p) { places.push_back(rays.ray_origin(p) - rays.center()); });
-    return triangles_around(rays, places);
+    add_places(rays, surface, places);
+    bool is_touched = false;
+    cut_where_hidden(rays, triangles_around(rays, places), surface, is_touched);
 }
 
 bool is_lit(std::span<const Panel> panels, const RayScene& rays, const TexelSurface& surface) {
@@ -58,7 +80,7 @@ TexelSurface exposed_surface(const Receivers& receivers, const Texel& texel, std
         if (is_lit(panels, rays, back)) return back;
     }
     if (texel.free_pieces == Texel::all_pieces || texel.is_inside()) return surface;
-    cut_at_contacts(rays, triangles_at(rays, surface), surface);
+    cut_where_hidden(rays, surface);
     surface.keep(texel.free_pieces);
     return surface;
 }
@@ -79,12 +101,12 @@ struct Judging {
         return scene.surfaces[atlas.charts[texel.chart].surface].is_two_sided;
     }
     /// Does some monitor light the back of what it cannot light from the front, and is the back free?
-    bool may_turn(const SurfacePoint& point, uint64_t key) const {
+    bool may_turn(const SurfacePoint& point, double texel_size, uint64_t key) const {
         const SurfacePoint back = turned(point);
         const bool is_called_for = std::ranges::any_of(panels, [&](const std::vector<Panel>& of_monitor) {
             return !(unshadowed_at(of_monitor, rays, point) > 0) && unshadowed_at(of_monitor, rays, back) > 0;
         });
-        return is_called_for && !judge.is_enclosed(back, hash(key, 1));
+        return is_called_for && judge.judge(back, texel_size, hash(key, 1)) != Enclosure::enclosed;
     }
 };
 
@@ -129,9 +151,13 @@ class BlockJudge {
         return TexelSurface(judging_.scene, judging_.atlas, texels_, texel);
     }
 
-    bool is_enclosed(const SurfacePoint& point, uint64_t key) {
+    Enclosure judge(const SurfacePoint& point, double texel_size, uint64_t key) {
         ++probes_;
-        return judging_.judge.is_enclosed(point, key);
+        return judging_.judge.judge(point, texel_size, key);
+    }
+    Enclosure judge(const Texel& texel) {
+        const TexelSurface surface = surface_of(texel);
+        return judge(surface.center(), std::sqrt(surface.area()), key(texel));
     }
 
     /// Texels without contacts that hang together, side by side; marks them as done.
@@ -156,42 +182,44 @@ class BlockJudge {
 
     /// One place says it, but that it is inside two more have to say too.
     void judge_group(const std::vector<int>& group) {
-        const auto place = [&](size_t i) { return group[i * group.size() / 4]; };
-        const auto is_inside = [&](int member) {
-            const Texel& texel = texel_of(member);
-            return is_enclosed(surface_of(texel).center(), key(texel));
-        };
-        if (is_inside(place(2)) && is_inside(place(1)) && is_inside(place(3))) {
-            for (const int member : group) texel_of(member).free_pieces = 0;
-            return;
+        const auto judge_place = [&](size_t i) { return judge(texel_of(group[i * group.size() / 4])); };
+        const Enclosure middle = judge_place(2);
+        const bool is_inside = middle == Enclosure::enclosed && judge_place(1) == middle && judge_place(3) == middle;
+        for (const int member : group) {
+            Texel& texel = texel_of(member);
+            // Near a sheet and far from it may be in one group.
+            const bool is_each_judged = middle != Enclosure::free && !is_inside;
+            if (is_inside || (is_each_judged && judge(texel) == Enclosure::enclosed)) texel.free_pieces = 0;
+            // Cards are small: which of their backs a monitor sees differs from one texel to the next.
+            if (!texel.is_inside()) judge_back(texel);
         }
-        if (!judging_.is_two_sided(texel_of(group[0]))) return;
-        // Cards are small: which of their backs a monitor sees differs from one texel to the next.
-        for (const int member : group) judge_back(texel_of(member));
     }
 
-    void judge_back(Texel& texel) { texel.may_turn = judging_.may_turn(surface_of(texel).center(), key(texel)); }
+    void judge_back(Texel& texel) const {
+        if (!judging_.is_two_sided(texel)) return;
+        const TexelSurface surface = surface_of(texel);
+        texel.may_turn = judging_.may_turn(surface.center(), std::sqrt(surface.area()), key(texel));
+    }
 
     void judge_touched(Texel& texel, Contact contact) {
-        TexelSurface surface = surface_of(texel);
-        const SurfacePoint center = surface.center();
-        if (contact == Contact::crossed) {
-            cut_at_contacts(judging_.rays, triangles_at(judging_.rays, surface), surface);
-            texel.free_pieces = free_pieces_of(surface, key(texel));
-        } else if (is_enclosed(center, key(texel))) {
+        if (contact == Contact::crossed)
+            texel.free_pieces = free_pieces_of(texel);
+        else if (judge(texel) == Enclosure::enclosed)
             texel.free_pieces = 0;
-        }
-        if (!texel.is_inside() && judging_.is_two_sided(texel)) judge_back(texel);
+        if (!texel.is_inside()) judge_back(texel);
     }
 
-    uint32_t free_pieces_of(const TexelSurface& surface, uint64_t key) {
+    uint32_t free_pieces_of(const Texel& texel) {
+        TexelSurface surface = surface_of(texel);
+        const double texel_size = std::sqrt(surface.area());
+        cut_where_hidden(judging_.rays, surface);
         uint32_t free = 0;
         const size_t count = surface.pieces().size();
         for (size_t i = 0; i < count; ++i) {
             const TexelSurface::Piece& piece = surface.pieces()[i];
             const SurfacePoint middle =
                 TexelSurface::point_of(piece, piece.is_square ? Vec2(0.5) : Vec2(2.0 / 3, 1.0 / 3));
-            if (!is_enclosed(middle, hash(key, i))) free |= 1u << i;
+            if (judge(middle, texel_size, hash(key(texel), i)) != Enclosure::enclosed) free |= 1u << i;
         }
         return free == (1u << count) - 1 ? Texel::all_pieces : free;
     }
@@ -210,21 +238,17 @@ constexpr size_t grain = 8;  // blocks; a few milliseconds
 std::vector<Contact> find_touched(const Receivers& receivers, const Blocks& blocks) {
     std::vector<Contact> contacts(receivers.texels.texels.size(), Contact::none);
     parallel_for(blocks.count(), grain, [&](size_t b) {
-        thread_local std::vector<TexelSurface::Crossing> lines;
         std::vector<TexelSurface> surfaces;
         std::vector<Vec3> places;
         for (const uint32_t number : blocks[b]) {
             surfaces.emplace_back(receivers.scene, receivers.atlas, receivers.texels, receivers.texels.texels[number]);
-            surfaces.back().for_each_corner([&](const SurfacePoint& corner) {
-                places.push_back(receivers.rays.ray_origin(corner) - receivers.rays.center());
-            });
+            add_places(receivers.rays, surfaces.back(), places);
         }
         const std::vector<BoxedTriangle> around = triangles_around(receivers.rays, places);
         for (size_t i = 0; i < surfaces.size() && !around.empty(); ++i) {
-            find_contacts(receivers.rays, around, surfaces[i], lines);
-            if (lines.empty()) continue;
-            const TexelSurface::CutResult cut = cut_along(lines, surfaces[i]);
-            contacts[blocks[b][i]] = cut.is_cut && cut.is_whole ? Contact::crossed : Contact::touched;
+            bool is_touched = false;
+            const TexelSurface::CutResult cut = cut_where_hidden(receivers.rays, around, surfaces[i], is_touched);
+            if (is_touched) contacts[blocks[b][i]] = cut.is_cut && cut.is_whole ? Contact::crossed : Contact::touched;
         }
     });
     return contacts;

@@ -250,11 +250,12 @@ std::array<Vec3, 3> RayScene::corners_of(const TriangleRef& triangle) const {
     return corners;
 }
 
-bool RayScene::starts_inside(const Vec3& origin, const Vec3& direction) const {
+Way RayScene::follow(const Vec3& origin, const Vec3& direction) const {
     constexpr int most_faces = 64;  // a ray that has met so many is taken to be outside
-    int exits = 0;                  // less entries
+    Way way;
+    int exits = 0;  // less entries
     float start = 0;
-    for (int i = 0; i < most_faces; ++i) {
+    for (int i = 0; i < most_faces && !way.comes_out; ++i) {
         RTCRayHit query;
         set_ray(query.ray, origin - state_->center, direction, INFINITY, solid_mask);
         query.ray.tnear = start;
@@ -263,14 +264,16 @@ bool RayScene::starts_inside(const Vec3& origin, const Vec3& direction) const {
         RTCIntersectContext context;
         rtcInitIntersectContext(&context);
         rtcIntersect1(state_->handle, &context, &query);
-        if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
+        if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) break;
         const Vec3 normal(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
-        exits += glm::dot(normal, direction) > 0 ? 1 : -1;
-        if (exits > 0) return true;
+        const bool is_back = glm::dot(normal, direction) > 0;
+        if (way.meets_nothing) way = {false, false, is_back, query.hit.geomID, static_cast<double>(query.ray.tfar)};
+        exits += is_back ? 1 : -1;
+        way.comes_out = exits > 0;
         // Past the face by more than the distance is rounded; faces that lie in one another count once.
         start = std::nextafter(query.ray.tfar * (1 + 4 * std::numeric_limits<float>::epsilon()), INFINITY);
     }
-    return false;
+    return way;
 }
 
 std::optional<Hit> RayScene::closest_hit(const Vec3& origin, const Vec3& direction) const {

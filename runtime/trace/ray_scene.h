@@ -40,6 +40,15 @@ struct Hit {
     bool is_front = true;  ///< the side that the triangle's winding shows
 };
 
+/// What a ray tells of the space that it starts in.
+struct Way {
+    bool comes_out = false;  ///< of something that it never went into: at some place it has met more backs than fronts
+    bool meets_nothing = true;   ///< it leaves the scene
+    bool meets_back = false;     ///< the first face that it meets shows its back
+    uint32_t surface = 0;        ///< of that face; index into Scene::surfaces
+    double distance = INFINITY;  ///< to that face, in lengths of the ray's direction
+};
+
 /// Owns the acceleration structure of one scene; the scene must outlive it. Calls are thread-safe.
 class RayScene {
   public:
@@ -81,9 +90,8 @@ class RayScene {
     /// The corners of a triangle as rays meet it, monitors' panels among them, relative to center().
     std::array<Vec3, 3> corners_of(const TriangleRef& triangle) const;
 
-    /// Does a ray from `origin` come out of something that it never went into? At some place along it, it has then met
-    /// more back faces than front faces. Monitors and alpha-masked surfaces do not count.
-    bool starts_inside(const Vec3& origin, const Vec3& direction) const;
+    /// Follows a ray through everything but monitors and alpha-masked surfaces.
+    Way follow(const Vec3& origin, const Vec3& direction) const;
 
     /// Nearest surface along a ray; alpha-masked holes are not hit.
     std::optional<Hit> closest_hit(const Vec3& origin, const Vec3& direction) const;

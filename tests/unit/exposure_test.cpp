@@ -54,24 +54,24 @@ struct Stage {
     }
 };
 
-TEST(StartsInside, CountsWhatARayLeavesAgainstWhatItEnters_M65) {
+TEST(Follow, CountsWhatARayLeavesAgainstWhatItEnters_M65) {
     Scene scene;
     test::add_box(scene, "Outer", {0, 0, 0}, {4, 4, 4});
     test::add_box(scene, "Inner", {1, 0, 0}, {1, 1, 1});
     test::add_box(scene, "Through", {0, 2, 0}, {1, 2, 1});
     const RayScene rays(scene);
     const Vec3 right(0.998, 0.05, 0.04), up(0.03, 0.997, 0.05);
-    EXPECT_TRUE(rays.starts_inside({0, 0, 0}, right)) << "through a box in the box, and out";
-    EXPECT_TRUE(rays.starts_inside({0, 0, 0}, up)) << "into a box that sticks out, and out of both";
-    EXPECT_TRUE(rays.starts_inside({1, 0, 0}, right));
-    EXPECT_FALSE(rays.starts_inside({-5, 0, 0}, right)) << "in and out again";
-    EXPECT_FALSE(rays.starts_inside({5, 0, 0}, right)) << "meets nothing";
+    EXPECT_TRUE(rays.follow({0, 0, 0}, right).comes_out) << "through a box in the box, and out";
+    EXPECT_TRUE(rays.follow({0, 0, 0}, up).comes_out) << "into a box that sticks out, and out of both";
+    EXPECT_TRUE(rays.follow({1, 0, 0}, right).comes_out);
+    EXPECT_FALSE(rays.follow({-5, 0, 0}, right).comes_out) << "in and out again";
+    EXPECT_FALSE(rays.follow({5, 0, 0}, right).comes_out) << "meets nothing";
     Scene room;
     test::add_box(room, "Room", {0, 0, 0}, {8, 8, 8}, true);
     test::add_box(room, "Box", {0, 0, 0}, {1, 1, 1});
     const RayScene in_room(room);
-    EXPECT_TRUE(in_room.starts_inside({0, 0, 0}, right));
-    EXPECT_FALSE(in_room.starts_inside({2, 0, 0}, right));
+    EXPECT_TRUE(in_room.follow({0, 0, 0}, right).comes_out);
+    EXPECT_FALSE(in_room.follow({2, 0, 0}, right).comes_out);
 }
 
 TEST(Exposure, NothingCrossesSoNothingIsProbed_M65) {
@@ -158,8 +158,8 @@ TEST(Exposure, TheJudgeKnowsFreeSpaceAndBoxes_M65) {
         SurfacePoint inside = at, beside = at;
         inside.position = {0.49 * (2 * t - 1), 0, 0.3};
         beside.position = {0.51 + t, 0, 0.3};
-        EXPECT_TRUE(judge.is_enclosed(inside, key));
-        EXPECT_FALSE(judge.is_enclosed(beside, key));
+        EXPECT_TRUE(judge.judge(inside, 0.1, key) == Enclosure::enclosed);
+        EXPECT_FALSE(judge.judge(beside, 0.1, key) == Enclosure::enclosed);
     }
 }
 
