@@ -172,7 +172,7 @@ std::vector<Reach> find_reach(const Scene& scene, const Preparation& preparation
         thread_local BlockSight sight;
         const std::span<const uint32_t> members = blocks[looks[i].page][looks[i].block];
         const BlockSurfaces surfaces =
-            block_surfaces(scene, preparation.atlas, preparation.texels[looks[i].page], *preparation.rays, members);
+            block_surfaces(setup, preparation.atlas, preparation.texels[looks[i].page], members);
         counts[i] = count_block(setup, surfaces, sight);
     });
     for (size_t i = 0; i < looks.size(); ++i) reach[looks[i].surface].blocks.add(counts[i]);

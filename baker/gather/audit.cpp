@@ -6,6 +6,7 @@
 #include <string>
 
 #include "baker/gather/confidence.h"
+#include "baker/gather/lift_pieces.h"
 #include "baker/gather/monte_carlo.h"
 #include "baker/gather/panel.h"
 #include "runtime/base/random.h"
@@ -100,7 +101,9 @@ Audit audit(const Scene& scene, const Atlas& atlas, const Texels& texels, const 
                                       .monitor = monitor,
                                       .clearance = clearance,
                                       .key = hash(key, texel.index)};
-            measured[i] = measure(task, TexelSurface(scene, atlas, texels, texel), estimates[drawn[i]]);
+            TexelSurface surface(scene, atlas, texels, texel);
+            if (settings.lifts_smooth) lift_pieces(rays, surface);
+            measured[i] = measure(task, surface, estimates[drawn[i]]);
         }
     });
     return summarise(measured, settings.error, hash(key, 0));

@@ -27,7 +27,7 @@ struct BlockSurfaces {
 };
 
 /// `members`: indices into texels.texels.
-BlockSurfaces block_surfaces(const Scene& scene, const Atlas& atlas, const Texels& texels, const RayScene& rays,
+BlockSurfaces block_surfaces(const MonitorSetup& setup, const Atlas& atlas, const Texels& texels,
                              std::span<const uint32_t> members);
 
 /// Memory that is used again from block to block.

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "baker/gather/block_light.h"
+#include "baker/gather/lift_pieces.h"
 #include "runtime/base/random.h"
 
 namespace surimi {
@@ -43,8 +44,9 @@ bool is_curved(const TexelSurface& surface, const SurfacePoint& center) {
 
 }  // namespace
 
-BlockSurfaces block_surfaces(const Scene& scene, const Atlas& atlas, const Texels& texels, const RayScene& rays,
+BlockSurfaces block_surfaces(const MonitorSetup& setup, const Atlas& atlas, const Texels& texels,
                              std::span<const uint32_t> members) {
+    const RayScene& rays = setup.rays;
     BlockSurfaces block;
     block.texels.reserve(members.size());
     block.grid.fill(-1);
@@ -55,7 +57,8 @@ BlockSurfaces block_surfaces(const Scene& scene, const Atlas& atlas, const Texel
     double largest = 0;
     for (const uint32_t member : members) {
         const Texel& texel = texels.texels[member];
-        const TexelSurface& surface = block.texels.emplace_back(scene, atlas, texels, texel);
+        TexelSurface& surface = block.texels.emplace_back(setup.scene, atlas, texels, texel);
+        if (setup.settings.lifts_smooth) lift_pieces(rays, surface);
         const size_t cell = size_t{texel.index / width % tile_size} * tile_size + texel.index % width % tile_size;
         block.grid[cell] = static_cast<int16_t>(block.centers.size());
         block.centers.push_back(surface.center());

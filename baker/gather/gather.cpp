@@ -86,7 +86,7 @@ void light_members(Gathering& g, std::span<const uint32_t> members, std::span<co
                    GatherStatistics& statistics) {
     thread_local BlockWorkspace work;
     std::vector<LitTexel> texels(members.size());
-    BlockSurfaces block = block_surfaces(g.setup.scene, g.atlas, g.texels, g.setup.rays, members);
+    BlockSurfaces block = block_surfaces(g.setup, g.atlas, g.texels, members);
     for (const uint32_t number : members) block.is_border.push_back(is_at_border(g, number));
     light_block(g.setup, block, footprints, work, texels, statistics);
     for (size_t i = 0; i < members.size(); ++i) g.lit[members[i]] = texels[i];
