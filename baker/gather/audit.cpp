@@ -105,7 +105,8 @@ Audit audit(const Scene& scene, const Atlas& atlas, const Texels& texels, const 
                                       .clearance = clearance,
                                       .key = hash(key, texel.index)};
             measured[i] =
-                measure(task, exposed_surface({scene, atlas, texels, rays}, texel, panels), estimates[drawn[i]]);
+                measure(task, exposed_surface({scene, atlas, texels, rays, settings.lifts_smooth}, texel, panels),
+                        estimates[drawn[i]]);
         }
     });
     return summarise(measured, settings.error, hash(key, 0));

@@ -47,7 +47,7 @@ bool is_curved(const TexelSurface& surface, const SurfacePoint& center) {
 BlockSurfaces block_surfaces(const MonitorSetup& setup, const Atlas& atlas, const Texels& texels,
                              std::span<const uint32_t> members) {
     const RayScene& rays = setup.rays;
-    const Receivers receivers{setup.scene, atlas, texels, rays};
+    const Receivers receivers{setup.scene, atlas, texels, rays, setup.settings.lifts_smooth};
     BlockSurfaces block;
     block.texels.reserve(members.size());
     block.grid.fill(-1);

@@ -26,19 +26,20 @@ bool meet(const Vec3& low, const Vec3& high, const Box& box) {
 struct LiftedPiece {
     const TexelSurface::Piece& piece;
     size_t number = 0;
+    Vec3 normal{0, 0, 1};
     double lift = 0;  ///< dot(normal, place) of its plane
     Vec3 middle{0};
     double radius = 0;
 
     LiftedPiece(const RayScene& rays, const TexelSurface& surface, size_t index)
-        : piece(surface.pieces()[index]), number(index) {
+        : piece(surface.pieces()[index]), number(index), normal(piece.plane_normal()) {
         const Vec3 origin = rays.ray_origin(TexelSurface::point_of(piece, {0, 0})) - rays.center();
-        lift = glm::dot(piece.geometric_normal, origin);
+        lift = glm::dot(normal, origin);
         const Vec3 offset = origin - piece.position.origin;
         middle = piece.position.at(0.5, 0.5) + offset;
         radius = 0.5 * (glm::length(piece.position.edge_u) + glm::length(piece.position.edge_v));
     }
-    double height(const Vec3& place) const { return glm::dot(piece.geometric_normal, place) - lift; }
+    double height(const Vec3& place) const { return glm::dot(normal, place) - lift; }
     void add(const Vec3& from, const Vec3& to, const Vec3& center, std::vector<TexelSurface::Crossing>& lines) const {
         if (distance_to_segment(middle, from, to) < radius) lines.push_back({number, from + center, to + center});
     }

@@ -9,6 +9,7 @@
 #include "baker/gather/contacts.h"
 #include "baker/gather/enclosure.h"
 #include "baker/gather/footprint.h"
+#include "baker/gather/lift_pieces.h"
 #include "runtime/base/parallel.h"
 #include "runtime/base/random.h"
 
@@ -79,9 +80,11 @@ TexelSurface exposed_surface(const Receivers& receivers, const Texel& texel, std
         back.turn_over();
         if (is_lit(panels, rays, back)) return back;
     }
-    if (texel.free_pieces == Texel::all_pieces || texel.is_inside()) return surface;
-    cut_where_hidden(rays, surface);
-    surface.keep(texel.free_pieces);
+    if (texel.free_pieces != Texel::all_pieces && !texel.is_inside()) {
+        cut_where_hidden(rays, surface);
+        surface.keep(texel.free_pieces);
+    }
+    if (receivers.lifts_smooth) lift_pieces(rays, surface);
     return surface;
 }
 

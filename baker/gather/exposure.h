@@ -33,10 +33,11 @@ struct Receivers {
     const Atlas& atlas;
     const Texels& texels;
     const RayScene& rays;
+    bool lifts_smooth = true;  ///< see GatherSettings
 };
 
 /// The part of a texel that takes light from these panels: what find_exposures() left free of its front, or its back
-/// where it may turn and only that can be lit.
+/// where it may turn and only that can be lit. Smooth pieces of the front are lifted (lift_pieces.h).
 TexelSurface exposed_surface(const Receivers& receivers, const Texel& texel, std::span<const Panel> panels);
 
 /// E (M1) of all panels at unit radiance.

@@ -60,17 +60,16 @@ void place(const MonteCarloTask& task, const TexelSurface& surface, SampleLanes&
         double u = lanes.numbers[2][i], v = lanes.numbers[3][i];
         const TexelSurface::Piece& chosen = surface.choose(u, v);
         const Vec3 position = chosen.position.at(u, v), normal = chosen.unit_normal(u, v);
+        const Vec3& horizon = chosen.is_lifted ? normal : chosen.geometric_normal;
         if (piece != &chosen) {
             piece = &chosen;
             const Vec3 barycentric = chosen.barycentric.at(u, v);
-            to_origin =
-                task.rays.ray_origin({chosen.triangle, barycentric, position, normal, chosen.geometric_normal}) -
-                position;
+            to_origin = task.rays.ray_origin({chosen.triangle, barycentric, position, normal, horizon}) - position;
         }
         const LightPoint light = task.sampler.sample(lanes.numbers[0][i], lanes.numbers[1][i]);
         SampleLanes::set(lanes.position, i, position - center);
         SampleLanes::set(lanes.normal, i, normal);
-        SampleLanes::set(lanes.geometric_normal, i, piece->geometric_normal);
+        SampleLanes::set(lanes.geometric_normal, i, horizon);
         SampleLanes::set(lanes.to_origin, i, to_origin);
         SampleLanes::set(lanes.target, i, light.position - center);
         SampleLanes::set(lanes.panel_normal, i, light.normal);

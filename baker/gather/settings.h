@@ -22,6 +22,7 @@ struct GatherSettings {
     int samples = 0;  ///< rays for each texel and monitor with Method::monte_carlo; 0: as many as `error` takes
     uint64_t seed = 0;
     bool clears_covers = true;  ///< what lies flat on a monitor does not block it (cover.h)
+    bool lifts_smooth = true;   ///< coarse smooth surfaces are seen as round as their normals say (lift.h)
 };
 
 /// What decided a texel's visibility; the strongest means that any of its points needed. The numbers stand in files.

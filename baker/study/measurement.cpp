@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "baker/gather/lift_pieces.h"
 #include "runtime/base/random.h"
 
 namespace surimi {
@@ -72,6 +73,13 @@ void set_errors(Measurement& measurement, std::span<const double> values, std::s
     measurement.p999 = errors[errors.size() - 1 - allowed_outliers(errors.size())];
 }
 
+TexelSurface surface_of(const Subject& subject, const StudiedTexel& texel) {
+    const Texels& texels = subject.selection.blocks[texel.monitor][texel.page];
+    TexelSurface surface(subject.scene, subject.atlas, texels, texels.texels[texel.texel]);
+    lift_pieces(subject.monitors[texel.monitor].rays, surface);
+    return surface;
+}
+
 Measurement measure(const Subject& subject, const Estimator& estimator, double setup_seconds) {
     const std::vector<StudiedTexel>& chosen = subject.selection.texels;
     std::vector<double> values(chosen.size());
@@ -79,8 +87,7 @@ Measurement measure(const Subject& subject, const Estimator& estimator, double s
     const double seconds = timed([&] {
         rays = 0;
         for (size_t i = 0; i < chosen.size(); ++i) {
-            const Texels& texels = subject.selection.blocks[chosen[i].monitor][chosen[i].page];
-            const TexelSurface surface(subject.scene, subject.atlas, texels, texels.texels[chosen[i].texel]);
+            const TexelSurface surface = surface_of(subject, chosen[i]);
             const StudyEstimate estimate =
                 estimator({subject.monitors[chosen[i].monitor], surface, hash(subject.seed, i)});
             values[i] = estimate.visibility;

@@ -49,6 +49,9 @@ struct Subject {
     uint64_t seed = 0;
 };
 
+/// The texel as the engine takes it: of a coarse smooth surface, moved off its facets (M63).
+TexelSurface surface_of(const Subject& subject, const StudiedTexel& texel);
+
 /// The receiver's estimate by some technique.
 using Estimator = std::function<StudyEstimate(const Receiver&)>;
 

@@ -27,8 +27,7 @@ std::vector<Reference> trace_references(const Subject& subject, size_t rays, con
     std::vector<Reference> references(chosen.size());
     parallel_stage("reference", chosen.size(), 1, progress, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
-            const Texels& texels = subject.selection.blocks[chosen[i].monitor][chosen[i].page];
-            const TexelSurface surface(subject.scene, subject.atlas, texels, texels.texels[chosen[i].texel]);
+            const TexelSurface surface = surface_of(subject, chosen[i]);
             const Receiver receiver{subject.monitors[chosen[i].monitor], surface, hash(~subject.seed, i)};
             references[i] = reference_visibility(receiver, rays);
         }

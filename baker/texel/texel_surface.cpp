@@ -141,8 +141,9 @@ SurfacePoint TexelSurface::sample(double u, double v) const {
 }
 
 SurfacePoint TexelSurface::point_of(const Piece& piece, const Vec2& uv) {
-    return {piece.triangle, piece.barycentric.at(uv.x, uv.y), piece.position.at(uv.x, uv.y),
-            piece.unit_normal(uv.x, uv.y), piece.geometric_normal};
+    const Vec3 normal = piece.unit_normal(uv.x, uv.y);
+    return {piece.triangle, piece.barycentric.at(uv.x, uv.y), piece.position.at(uv.x, uv.y), normal,
+            piece.is_lifted ? normal : piece.geometric_normal};
 }
 
 double TexelSurface::share_of(const Piece& piece) const {
@@ -151,9 +152,7 @@ double TexelSurface::share_of(const Piece& piece) const {
 }
 
 SurfacePoint TexelSurface::center() const {
-    const auto middle_of = [](const Piece& piece) {
-        return point_of(piece, piece.is_square ? Vec2(0.5) : Vec2(2.0 / 3, 1.0 / 3));
-    };
+    const auto middle_of = [](const Piece& piece) { return point_of(piece, piece.middle()); };
     if (pieces_.size() == 1) return middle_of(pieces_.front());
     Vec3 position(0), normal(0);
     for (const Piece& piece : pieces_) {
@@ -163,17 +162,30 @@ SurfacePoint TexelSurface::center() const {
         normal += share * middle.normal;
     }
     SurfacePoint best = middle_of(pieces_.front());
-    bool is_flat = true;
+    bool is_flat = true, is_lifted = false;
     for (const Piece& piece : pieces_) {
         const SurfacePoint middle = middle_of(piece);
         if (glm::length(middle.position - position) < glm::length(best.position - position)) best = middle;
         // One plane to the rounding of float vertices.
         is_flat = is_flat && glm::dot(piece.geometric_normal, pieces_.front().geometric_normal) > 1 - 1e-10;
+        is_lifted = is_lifted || piece.is_lifted;
     }
     if (!is_flat) return best;
     best.position = position;
     best.normal = normalize_or(normal, best.geometric_normal);
+    if (is_lifted) best.geometric_normal = best.normal;
     return best;
+}
+
+Vec3 TexelSurface::Piece::plane_normal() const {
+    if (!is_lifted) return geometric_normal;
+    const Vec3 across = normalize_or(glm::cross(position.edge_u, position.edge_v), geometric_normal);
+    return glm::dot(across, geometric_normal) < 0 ? -across : across;
+}
+
+void TexelSurface::lift(size_t piece, const Affine& position) {
+    pieces_[piece].position = position;
+    pieces_[piece].is_lifted = true;
 }
 
 namespace {

@@ -23,6 +23,7 @@ class TexelSurface {
         double cumulative = 0;  ///< area of this and all earlier pieces
         bool is_square = false;
         bool has_one_normal = false;  ///< then normal.origin is it, of unit length
+        bool is_lifted = false;       ///< off its triangle, to where only what is below the shading normal is hidden
         TriangleRef triangle;
         Vec3 geometric_normal{0, 0, 1};
         Affine barycentric, position, normal;
@@ -31,6 +32,10 @@ class TexelSurface {
         Vec3 unit_normal(double u, double v) const {
             return has_one_normal ? normal.origin : normalize_or(normal.at(u, v), geometric_normal);
         }
+        /// Coordinates of its centre of area.
+        Vec2 middle() const { return is_square ? Vec2(0.5) : Vec2(2.0 / 3, 1.0 / 3); }
+        /// Unit normal of the plane that its positions lie in, on the front side.
+        Vec3 plane_normal() const;
     };
 
     /// The piece that (u, v) in [0, 1)^2 chooses; (u, v) become coordinates within it. The place is evenly spread over
@@ -44,6 +49,7 @@ class TexelSurface {
     /// Share of the texel's area; all shares sum to 1.
     double share_of(const Piece& piece) const;
     /// The point at (u, v) of the piece's own coordinates: (0, 0), (1, 0), (1, 1) are corners, for a square (0, 1) too.
+    /// The geometric normal of a lifted piece's is the shading normal.
     static SurfacePoint point_of(const Piece& piece, const Vec2& uv);
 
     /// The point that stands for the texel best: its centre of area where all of it lies in one plane, else the middle
@@ -77,6 +83,12 @@ class TexelSurface {
 
     /// Its back becomes its front: normals are reversed.
     void turn_over();
+
+    /// Moves a piece off its triangle (M63, lift.h): from now on its points have the shading normal as their geometric
+    /// one as well, since its own triangle is not in the way of what that admits. Areas stay.
+    void lift(size_t piece, const Affine& position);
+
+    const Scene& scene() const { return scene_; }
 
     /// m^2 of surface under the texel; 0 for a texel that is only touched.
     double area() const { return area_; }
