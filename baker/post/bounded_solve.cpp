@@ -2,6 +2,7 @@
 #include "baker/post/bounded_solve.h"
 
 #include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
 
 #include <algorithm>
 #include <vector>
@@ -11,6 +12,14 @@ namespace {
 
 using Matrix = Eigen::SparseMatrix<double>;
 using Vector = Eigen::VectorXd;
+
+/// 1/2 x.A x - b.x is to be least with low <= x <= high.
+struct Quadratic {
+    Matrix matrix;  ///< A: symmetric, both triangles stored, positive definite
+    Vector right;   ///< b
+    Vector low;
+    Vector high;
+};
 
 enum class Held : uint8_t { free, low, high };
 
@@ -30,7 +39,7 @@ Matrix without_held(const Matrix& matrix, const std::vector<Held>& held) {
 }
 
 /// Sets held unknowns to their bounds.
-void hold(const BoundedQuadratic& problem, const std::vector<Held>& held, Vector& x) {
+void hold(const Quadratic& problem, const std::vector<Held>& held, Vector& x) {
     for (Eigen::Index i = 0; i < x.size(); ++i) {
         const Held h = held[static_cast<size_t>(i)];
         if (h != Held::free) x[i] = h == Held::low ? problem.low[i] : problem.high[i];
@@ -39,7 +48,7 @@ void hold(const BoundedQuadratic& problem, const std::vector<Held>& held, Vector
 
 /// Which unknowns to hold next: those that are outside, and those held that press against their bound. Whether any
 /// changed.
-bool update(const BoundedQuadratic& problem, const Vector& x, std::vector<Held>& held) {
+bool update(const Quadratic& problem, const Vector& x, std::vector<Held>& held) {
     const Vector slope = problem.matrix * x - problem.right;
     bool has_changed = false;
     for (Eigen::Index i = 0; i < x.size(); ++i) {
@@ -56,7 +65,7 @@ bool update(const BoundedQuadratic& problem, const Vector& x, std::vector<Held>&
 }
 
 /// Each unknown in turn goes to its best place between its bounds: slow, but never a step back.
-void relax(const BoundedQuadratic& problem, Vector& x) {
+void relax(const Quadratic& problem, Vector& x) {
     constexpr int most_sweeps = 1000;
     for (int sweep = 0; sweep < most_sweeps; ++sweep) {
         double largest = 0;
@@ -74,9 +83,29 @@ void relax(const BoundedQuadratic& problem, Vector& x) {
     }
 }
 
-}  // namespace
+Vector as_vector(const std::vector<double>& values) {
+    return Eigen::Map<const Vector>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
 
-Vector solve(const BoundedQuadratic& problem) {
+Quadratic normal_equations(const BoundedLeastSquares& problem) {
+    std::vector<Eigen::Triplet<double>> entries;
+    entries.reserve(problem.entries.size());
+    for (const auto& [equation, unknown, value] : problem.entries)
+        entries.push_back({static_cast<int>(unknown), static_cast<int>(equation), value});
+    const auto size = static_cast<Eigen::Index>(problem.weights.size());
+    Matrix transposed(size, static_cast<Eigen::Index>(problem.right.size()));
+    transposed.setFromTriplets(entries.begin(), entries.end());
+    entries = {};
+    for (int i = 0; i < size; ++i) entries.push_back({i, i, problem.weights[static_cast<size_t>(i)]});
+    Matrix own(size, size);
+    own.setFromTriplets(entries.begin(), entries.end());
+    const Matrix equations = transposed.transpose();
+    return {transposed * equations + own, transposed * as_vector(problem.right), as_vector(problem.low),
+            as_vector(problem.high)};
+}
+
+/// Where it is least.
+Vector least(const Quadratic& problem) {
     constexpr int most_rounds = 30;  // of holding; mostly 2 to 5 are needed
     const auto size = static_cast<size_t>(problem.right.size());
     std::vector<Held> held(size, Held::free);
@@ -97,6 +126,13 @@ Vector solve(const BoundedQuadratic& problem) {
     x = x.cwiseMax(problem.low).cwiseMin(problem.high);
     if (!is_settled) relax(problem, x);
     return x;
+}
+
+}  // namespace
+
+std::vector<double> solve(const BoundedLeastSquares& problem) {
+    const Vector x = least(normal_equations(problem));
+    return {x.begin(), x.end()};
 }
 
 }  // namespace surimi

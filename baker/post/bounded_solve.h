@@ -1,20 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-// The least of a quadratic function between bounds.
+// Sparse linear least squares between bounds.
 #pragma once
 
-#include <Eigen/SparseCore>
+#include <cstdint>
+#include <vector>
 
 namespace surimi {
 
-/// 1/2 x.A x - b.x is to be least with low <= x <= high.
-struct BoundedQuadratic {
-    Eigen::SparseMatrix<double> matrix;  ///< A: symmetric, both triangles stored, positive definite
-    Eigen::VectorXd right;               ///< b
-    Eigen::VectorXd low;                 ///< low <= 0 <= high
-    Eigen::VectorXd high;
+/// |R x - r|^2 + sum of weights_i x_i^2 is to be least with low <= x <= high.
+struct BoundedLeastSquares {
+    struct Entry {
+        uint32_t equation = 0;
+        uint32_t unknown = 0;
+        double value = 0;
+    };
+    std::vector<Entry> entries;   ///< of R; those of one place add up
+    std::vector<double> right;    ///< r: one for each equation
+    std::vector<double> weights;  ///< above 0; one for each unknown
+    std::vector<double> low;      ///< at most 0
+    std::vector<double> high;     ///< at least 0
 };
 
-/// Where it is least, always within the bounds (M61).
-Eigen::VectorXd solve(const BoundedQuadratic& problem);
+/// The x for which it is least, always within the bounds (M61). Near linear where the unknowns form chains.
+std::vector<double> solve(const BoundedLeastSquares& problem);
 
 }  // namespace surimi

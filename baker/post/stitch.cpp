@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <vector>
 
 #include "baker/post/bounded_solve.h"
@@ -23,29 +22,24 @@ double weight_of(std::span<const Channel> pages, uint64_t texel) {
     return pages[texel / size].state.pixels[texel % size] == TexelState::covered ? 1 : guess_weight;
 }
 
-/// What one part's texels are asked for, row by row.
-struct Rows {
-    std::vector<Eigen::Triplet<double>> entries;
-    std::vector<double> right;
-
-    /// weight * (jump + the change of the jump) is to be 0.
-    void add(const StitchPart& part, const SeamSample& sample, double jump, double weight) {
-        bool is_here = false;
-        for (size_t k = 0; k < sample.count; ++k) {
-            const auto at = std::lower_bound(part.texels.begin(), part.texels.end(), sample.texels[k]);
-            if (at == part.texels.end() || *at != sample.texels[k]) continue;
-            is_here = true;
-            entries.push_back({static_cast<int>(right.size()), static_cast<int>(at - part.texels.begin()),
-                               weight * sample.weights[k]});
-        }
-        if (is_here) right.push_back(-weight * jump);
+/// weight * (jump + its change) is to be 0, in those texels of the sample that belong to the part.
+void add_equation(BoundedLeastSquares& problem, const StitchPart& part, const SeamSample& sample, double jump,
+                  double weight) {
+    bool is_here = false;
+    for (size_t k = 0; k < sample.count; ++k) {
+        const auto at = std::lower_bound(part.texels.begin(), part.texels.end(), sample.texels[k]);
+        if (at == part.texels.end() || *at != sample.texels[k]) continue;
+        is_here = true;
+        problem.entries.push_back({static_cast<uint32_t>(problem.right.size()),
+                                   static_cast<uint32_t>(at - part.texels.begin()), weight * sample.weights[k]});
     }
-};
+    if (is_here) problem.right.push_back(-weight * jump);
+}
 
 /// In the changes of the part's texels (M60).
-BoundedQuadratic problem_of(const Atlas& atlas, const Seams& seams, std::span<const Channel> pages,
-                            const StitchPart& part) {
-    Rows rows;
+BoundedLeastSquares problem_of(const Atlas& atlas, const Seams& seams, std::span<const Channel> pages,
+                               const StitchPart& part) {
+    BoundedLeastSquares problem;
     for (const uint32_t p : part.pieces) {
         const SeamPiece& piece = seams.pieces[p];
         const size_t steps = steps_of(piece);
@@ -53,29 +47,15 @@ BoundedQuadratic problem_of(const Atlas& atlas, const Seams& seams, std::span<co
         for (size_t i = 0; i <= steps; ++i) {
             const SeamSample sample = seam_sample(atlas, piece, static_cast<double>(i) / static_cast<double>(steps));
             const double share = i == 0 || i == steps ? 0.5 : 1;
-            rows.add(part, sample, jump(pages, sample), std::sqrt(seam_weight * step * share));
+            add_equation(problem, part, sample, jump(pages, sample), std::sqrt(seam_weight * step * share));
         }
     }
-    const auto size = static_cast<Eigen::Index>(part.texels.size());
-    Eigen::SparseMatrix<double> equations(static_cast<Eigen::Index>(rows.right.size()), size);
-    equations.setFromTriplets(rows.entries.begin(), rows.entries.end());
-    rows.entries = {};
-    BoundedQuadratic problem;
-    problem.right = equations.transpose() *
-                    Eigen::Map<const Eigen::VectorXd>(rows.right.data(), static_cast<Eigen::Index>(rows.right.size()));
-    problem.low.resize(size);
-    problem.high.resize(size);
-    Eigen::SparseMatrix<double> own(size, size);
-    own.reserve(Eigen::VectorXi::Constant(size, 1));
-    for (Eigen::Index i = 0; i < size; ++i) {
-        const uint64_t texel = part.texels[static_cast<size_t>(i)];
+    for (const uint64_t texel : part.texels) {
         const double value = visibility_of(pages, texel);
-        problem.low[i] = -value;
-        problem.high[i] = 1 - value;
-        own.insert(i, i) = weight_of(pages, texel);
+        problem.low.push_back(-value);
+        problem.high.push_back(1 - value);
+        problem.weights.push_back(weight_of(pages, texel));
     }
-    const Eigen::SparseMatrix<double> transposed = equations.transpose();
-    problem.matrix = transposed * equations + own;
     return problem;
 }
 
@@ -89,9 +69,9 @@ StitchReport stitch(const Atlas& atlas, const Seams& seams, std::span<Channel> p
     const std::vector<StitchPart> parts = find_stitch_parts(atlas, seams, pages);
     std::vector<std::vector<float>> values(parts.size());
     parallel_for(parts.size(), 1, [&](size_t p) {
-        const Eigen::VectorXd change = solve(problem_of(atlas, seams, pages, parts[p]));
+        const std::vector<double> change = solve(problem_of(atlas, seams, pages, parts[p]));
         for (size_t i = 0; i < parts[p].texels.size(); ++i) {
-            const double value = visibility_of(pages, parts[p].texels[i]) + change[static_cast<Eigen::Index>(i)];
+            const double value = visibility_of(pages, parts[p].texels[i]) + change[i];
             values[p].push_back(static_cast<float>(std::clamp(value, 0.0, 1.0)));
         }
     });
