@@ -36,7 +36,7 @@ endforeach()
 
 # header prefix -> where it may be seen
 set(owners
-  "embree3/=runtime/trace/" "hwy/=runtime/batch/,baker/gather/" "OpenImageIO/=runtime/image/" "OpenMesh/=baker/unwrap/" "Eigen/=baker/unwrap/" "CLI/=baker/cli/"
+  "embree3/=runtime/trace/" "hwy/=runtime/batch/,baker/gather/" "OpenImageIO/=runtime/image/" "OpenMesh/=baker/unwrap/" "Eigen/=baker/unwrap/,baker/post/" "CLI/=baker/cli/"
   "toml++/=baker/cli/" "tbb/=runtime/base/" "draco/=runtime/scene/" "meshoptimizer=runtime/scene/"
   "tiny_gltf=runtime/scene/,baker/write/")
 file(GLOB_RECURSE all ${root}/runtime/*.h ${root}/runtime/*.cpp ${root}/baker/*.h ${root}/baker/*.cpp)
