@@ -2,35 +2,15 @@
 #include "baker/bake.h"
 
 #include <algorithm>
-#include <chrono>
+#include <utility>
 
-#include "baker/monitor_warnings.h"
+#include "baker/memory.h"
+#include "baker/post/fill.h"
 #include "baker/post/ratio.h"
 #include "baker/preparation.h"
-#include "runtime/trace/ray_scene.h"
 
 namespace surimi {
 namespace {
-
-/// Times the stages of a bake, one after the other. A stage that comes again, for another page, is the same stage.
-class Stopwatch {
-  public:
-    explicit Stopwatch(std::vector<StageCost>& costs) : costs_(costs) {}
-
-    void finish(const std::string& stage, size_t rays = 0) {
-        const auto now = std::chrono::steady_clock::now();
-        auto cost = std::find_if(costs_.begin(), costs_.end(), [&](const StageCost& c) { return c.stage == stage; });
-        if (cost == costs_.end()) cost = costs_.insert(cost, {stage});
-        cost->seconds += std::chrono::duration<double>(now - start_).count();
-        cost->rays += rays;
-        cost->peak_bytes = peak_resident_bytes();
-        start_ = now;
-    }
-
-  private:
-    std::vector<StageCost>& costs_;
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 /// Estimates as an image, for the files.
 Image<IrradianceEstimate> as_image(const Texels& texels, const std::vector<IrradianceEstimate>& estimates) {
@@ -47,43 +27,44 @@ std::vector<IrradianceEstimate> of_texels(const Texels& texels, const Image<Irra
     return estimates;
 }
 
+/// The estimates are gone before the map is filled, which takes memory of its own.
 void store_channel(BakedPage& page, const Monitor& monitor, const Atlas& atlas, const Texels& texels,
-                   const std::vector<IrradianceEstimate>& estimates) {
+                   std::vector<IrradianceEstimate> estimates) {
     const auto c = static_cast<size_t>(monitor.channel);
     Channel channel = visibility_channel(texels, estimates);
+    page.irradiance[c] = as_image(texels, std::exchange(estimates, {}));
     fill(atlas, texels, channel.visibility, channel.state);
     for (size_t i = 0; i < channel.visibility.pixels.size(); ++i)
         page.map.visibility.pixels[i][monitor.channel] = channel.visibility.pixels[i];
     page.map.monitors[c] = monitor.name;
     page.state[c] = std::move(channel.state);
-    page.irradiance[c] = as_image(texels, estimates);
 }
 
-/// What light is gathered on, and by which rays.
-struct Receivers {
+struct AuditTask {
     const Scene& scene;
-    const std::vector<Texels>& texels;  ///< by page
-    const RayScene& rays;
+    const Preparation& preparation;
+    const std::vector<BakedPage>& pages;
 };
 
 /// An audit for each page of a monitor that is done. The pages share the texels asked for by how many have light.
-std::vector<Audit> audit_pages(const Receivers& receivers, const Bake& baked, size_t monitor,
-                               const BakeSettings& settings, const Progress& progress) {
-    const auto c = static_cast<size_t>(receivers.scene.monitors[monitor].channel);
+std::vector<Audit> audit_pages(const AuditTask& task, size_t monitor, const BakeSettings& settings,
+                               const Progress& progress) {
+    const auto& [scene, preparation, pages] = task;
+    const auto c = static_cast<size_t>(scene.monitors[monitor].channel);
     std::vector<size_t> lit{0};  // texels with light on all pages before this one
-    for (const BakedPage& page : baked.pages) {
+    for (const BakedPage& page : pages) {
         const auto& pixels = page.irradiance[c].pixels;
         const auto has_light = [](const IrradianceEstimate& estimate) { return estimate.unshadowed > 0; };
         lit.push_back(lit.back() + static_cast<size_t>(std::count_if(pixels.begin(), pixels.end(), has_light)));
     }
     const size_t wanted = std::min(settings.audit, lit.back());
-    std::vector<Audit> audits(baked.pages.size());
+    std::vector<Audit> audits(pages.size());
     for (size_t p = 0; p < audits.size(); ++p) {
-        const Texels& texels = receivers.texels[p];
+        const Texels& texels = preparation.texels[p];
         const size_t count = lit.back() > 0 ? wanted * lit[p + 1] / lit.back() - wanted * lit[p] / lit.back() : 0;
         if (count > 0)
-            audits[p] = audit(receivers.scene, baked.atlas, texels, receivers.rays, monitor,
-                              of_texels(texels, baked.pages[p].irradiance[c]), settings.gather, count,
+            audits[p] = audit(scene, preparation.atlas, texels, *preparation.rays, monitor,
+                              of_texels(texels, pages[p].irradiance[c]), settings.gather, count,
                               part_of(progress, p, audits.size()));
     }
     return audits;
@@ -92,41 +73,36 @@ std::vector<Audit> audit_pages(const Receivers& receivers, const Bake& baked, si
 }  // namespace
 
 Bake bake(const Scene& scene, const BakeSettings& settings, const Progress& progress) {
+    check_memory_of_maps(scene, settings);
+    Preparation preparation = prepare(scene, settings.unwrap, progress);
+    GatherSettings gather_settings = settings.gather;
+    gather_settings.band_rows = rows_within_memory(scene, preparation, settings);
+
     Bake result;
-    Stopwatch stopwatch(result.costs);
-
-    result.atlas = unwrap(scene, settings.unwrap, progress);
-    stopwatch.finish("unwrap");
-    std::vector<Texels> texels;
-    for (int page = 0; page < result.atlas.pages; ++page) texels.push_back(find_texels(scene, result.atlas, page));
-    stopwatch.finish("texels");
-    const RayScene rays(scene);
-    result.warnings = monitor_warnings(scene, rays);
-    result.warnings.insert(result.warnings.end(), result.atlas.warnings.begin(), result.atlas.warnings.end());
-    stopwatch.finish("rays");
-
-    const Silhouettes silhouettes = find_silhouettes(scene, rays);
-    stopwatch.finish("silhouettes");
-
+    result.costs = preparation.costs;
+    result.warnings = preparation.warnings;
     result.error = settings.gather.error;
-    result.pages.resize(texels.size());
+    Stopwatch stopwatch(result.costs);
+    result.pages.resize(preparation.texels.size());
     for (BakedPage& page : result.pages)  // unused channels stay 1
-        page.map.visibility = Image<Vec3f>(result.atlas.width, result.atlas.height, Vec3f(1));
+        page.map.visibility = Image<Vec3f>(preparation.atlas.width, preparation.atlas.height, Vec3f(1));
     for (size_t m = 0; m < scene.monitors.size(); ++m) {
         const Monitor& monitor = scene.monitors[m];
         MonitorEvidence& evidence = result.evidence.emplace_back();
-        for (size_t p = 0; p < texels.size(); ++p) {
-            const Gathered gathered = gather(scene, result.atlas, texels[p], rays, silhouettes, m, settings.gather,
-                                             part_of(progress, p, texels.size()));
+        for (size_t p = 0; p < result.pages.size(); ++p) {
+            const Texels& texels = preparation.texels[p];
+            Gathered gathered = gather(scene, preparation.atlas, texels, *preparation.rays, preparation.silhouettes, m,
+                                       gather_settings, part_of(progress, p, result.pages.size()));
             evidence.statistics.add(gathered.statistics);
             stopwatch.finish("light from " + monitor.name, gathered.statistics.rays());
-            store_channel(result.pages[p], monitor, result.atlas, texels[p], gathered.estimates);
+            store_channel(result.pages[p], monitor, preparation.atlas, texels, std::move(gathered.estimates));
             stopwatch.finish("fill " + monitor.name);
         }
         if (settings.audit == 0) continue;
-        evidence.audits = audit_pages({scene, texels, rays}, result, m, settings, progress);
+        evidence.audits = audit_pages({scene, preparation, result.pages}, m, settings, progress);
         stopwatch.finish("audit of " + monitor.name);
     }
+    result.atlas = std::move(preparation.atlas);
     return result;
 }
 

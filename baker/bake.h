@@ -9,7 +9,8 @@
 
 #include "baker/gather/audit.h"
 #include "baker/gather/gather.h"
-#include "baker/post/fill.h"
+#include "baker/post/channel.h"
+#include "baker/stage_cost.h"
 #include "baker/texel/texels.h"
 #include "baker/unwrap/unwrap.h"
 #include "runtime/base/parallel.h"
@@ -21,15 +22,8 @@ namespace surimi {
 struct BakeSettings {
     UnwrapSettings unwrap;
     GatherSettings gather;
-    size_t audit = 0;  ///< texels of each monitor to check against many rays; 0: none
-};
-
-/// What one stage cost, over all monitors and pages that it names.
-struct StageCost {
-    std::string stage;
-    double seconds = 0;
-    size_t rays = 0;
-    size_t peak_bytes = 0;  ///< resident set of the process at its highest so far
+    size_t audit = 0;   ///< texels of each monitor to check against many rays; 0: none
+    size_t memory = 0;  ///< bytes that the process may take until the maps are done; 0: no bound
 };
 
 /// One page of the atlas.
@@ -55,7 +49,8 @@ struct Bake {
 };
 
 /// Bakes scene.monitors into one map for each page of the atlas. The result depends on scene and settings alone, not on
-/// the number of threads. Throws what its stages throw, and Error(interrupted).
+/// the number of threads, nor on how it keeps within settings.memory. Throws what its stages throw, Error(interrupted),
+/// and Error(usage) before light is gathered where the memory does not suffice.
 Bake bake(const Scene& scene, const BakeSettings& settings, const Progress& progress);
 
 }  // namespace surimi

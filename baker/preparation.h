@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands before light is gathered: atlas, texels, rays, silhouettes, and the time that each took.
+// What stands before light is gathered: atlas, texels, rays, silhouettes, warnings, and what each took.
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "baker/gather/silhouettes.h"
+#include "baker/stage_cost.h"
 #include "baker/texel/texels.h"
 #include "baker/unwrap/unwrap.h"
 #include "runtime/base/parallel.h"
@@ -19,18 +21,13 @@ struct Preparation {
     std::vector<Texels> texels;      ///< by page
     std::unique_ptr<RayScene> rays;  ///< never empty
     Silhouettes silhouettes;
+    std::vector<std::string> warnings;  ///< of monitors and atlas
 
-    double unwrap_seconds = 0, texels_seconds = 0, rays_seconds = 0, silhouettes_seconds = 0;
-    size_t rays_bytes = 0;  ///< by which the process grew with `rays`: about what Embree holds
+    std::vector<StageCost> costs;  ///< unwrap, texels, rays, silhouettes
+    size_t rays_bytes = 0;         ///< by which the process grew with `rays`: about what Embree holds
 };
 
 /// The scene must outlive the result. Throws what unwrap() throws, and Error(interrupted).
 Preparation prepare(const Scene& scene, const UnwrapSettings& settings, const Progress& progress);
-
-/// Bytes that the process holds in memory now, from the kernel; 0 where it does not tell.
-size_t resident_bytes();
-
-/// The same at its highest so far.
-size_t peak_resident_bytes();
 
 }  // namespace surimi

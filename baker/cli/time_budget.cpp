@@ -68,8 +68,7 @@ std::string spend(const Scene& scene, Config& config, const Progress& progress) 
     };
     GatherSettings& gather = config.bake.gather;
     const Preparation preparation = prepare(scene, config.bake.unwrap, progress);
-    double rest = preparation.unwrap_seconds + preparation.texels_seconds + preparation.rays_seconds +
-                  preparation.silhouettes_seconds;  // the bake does it again
+    double rest = seconds_of(preparation.costs);  // the bake does it again
     for (size_t m = 0; m < scene.monitors.size(); ++m) {
         rest += calibrate_fill(preparation);
         if (config.bake.audit > 0)
