@@ -50,7 +50,8 @@ size_t passing_bytes(const Texels& texels, const GatherSettings& settings) {
 [[noreturn]] void throw_too_much(const std::string& what, size_t bytes, size_t bound) {
     throw Error(ErrorKind::usage,
                 fmt::format("memory: {:.0f} MiB are allowed, and {} at least {:.0f} MiB; raise --memory, or make the "
-                            "map smaller with --size or --density (bytes grow with the square of both)",
+                            "map smaller with --size or --density (bytes grow with the square of both), or take "
+                            "fewer --atlases",
                             mebibytes(bound), what, mebibytes(bytes)));
 }
 
@@ -103,7 +104,7 @@ void check_memory_of_maps(const Scene& scene, const BakeSettings& settings) {
     const size_t page = static_cast<size_t>(unwrap.width) * static_cast<size_t>(unwrap.height);
     const size_t bytes = resident_bytes() + map_bytes(page, 1, scene.monitors.size());
     if (bytes > settings.memory)
-        throw_too_much(fmt::format("{} x {} texels of map and evidence for {} monitors take", unwrap.width,
+        throw_too_much(fmt::format("{} x {} texels of map and evidence (monitors: {}) take", unwrap.width,
                                    unwrap.height, scene.monitors.size()),
                        bytes, settings.memory);
 }

@@ -137,14 +137,14 @@ TEST(Texels, RowsHaveTheirTexels) {
 }
 
 TEST(Downsample, AveragesLightNotItsRatio_M64) {
-    const std::array<IrradianceEstimate, 4> parts{{{2, 0, 0.1f, TexelMethod::split},
+    const std::array<IrradianceEstimate, 4> parts{{{4, 1, 0.1f, TexelMethod::split},
                                                    {1, 1, 0.2f, TexelMethod::monte_carlo},
                                                    {0, 0, 0, TexelMethod::none},
                                                    {1, 0.5f, 0, TexelMethod::ray}}};
     const IrradianceEstimate e = average(parts, std::array{1.0, 2.0, 3.0, 2.0});
-    EXPECT_FLOAT_EQ(e.unshadowed, 6.f / 8);
-    EXPECT_FLOAT_EQ(e.shadowed, 3.f / 8) << "V is 1/2; the mean of the ratios is 1/2 or 0.6, by area";
-    EXPECT_FLOAT_EQ(e.error, static_cast<float>(std::hypot(1 * 2 * 0.1, 2 * 1 * 0.2) / 6));
+    EXPECT_FLOAT_EQ(e.unshadowed, 1);
+    EXPECT_FLOAT_EQ(e.shadowed, 0.5f) << "the mean of the ratios is 0.58, by area 0.65";
+    EXPECT_FLOAT_EQ(e.error, static_cast<float>(std::hypot(1 * 4 * 0.1, 2 * 1 * 0.2) / 8));
     EXPECT_EQ(e.method, TexelMethod::monte_carlo);
 }
 
@@ -182,7 +182,7 @@ TEST(Supersample, AgreesWithTexelsWithinTheErrorsOfBoth_M64) {
     EXPECT_GT(lit, 3000u);
     EXPECT_GT(different, lit / 20) << "subtexels are other points";
     EXPECT_LE(static_cast<double>(apart), 0.002 * static_cast<double>(lit)) << "0.1 % each";
-    EXPECT_GT(two.evidence[0].statistics.blocks, 3 * one.evidence[0].statistics.blocks);
+    EXPECT_GT(two.evidence[0].statistics.blocks, 2 * one.evidence[0].statistics.blocks);
     size_t counted = 0;
     for (const auto& method : two.evidence[0].statistics.methods) counted += method.texels;
     EXPECT_EQ(counted, find_texels(scene, two.atlas).texels.size()) << "texels, not subtexels";
@@ -256,14 +256,14 @@ TEST(Memory, ABakeTakesWhatIsForetold) {
     for (const GatherSettings& gather : {GatherSettings{.error = 0.05}, GatherSettings{.error = 0.05, .band_rows = 8},
                                          GatherSettings{.error = 0.05, .supersample = 2, .band_rows = 256}}) {
         BakeSettings settings = settings_of(1, gather);
-        settings.unwrap.width = settings.unwrap.height = 768;
+        settings.unwrap.width = settings.unwrap.height = 512;
         const PlannedMemory memory = planned_memory(scene, prepare(scene, settings.unwrap, {}), settings);
         const auto foretold = static_cast<double>(memory.map + memory.texels + memory.silhouettes + memory.passing);
         test::restart_count();
         bake(scene, settings, {});
         const auto counted = static_cast<double>(test::most_counted_bytes());
-        EXPECT_GT(foretold, 40e6);
-        EXPECT_NEAR(counted / foretold, 1, 0.15) << gather.band_rows;
+        EXPECT_GT(foretold, 15e6);
+        EXPECT_NEAR(counted / foretold, 1, 0.15) << counted << " of " << foretold;
     }
 }
 
