@@ -10,7 +10,10 @@
 #include "baker/gather/audit.h"
 #include "baker/gather/exposure.h"
 #include "baker/gather/gather.h"
-#include "baker/post/fill.h"
+#include "baker/post/channel.h"
+#include "baker/post/stitch.h"
+#include "baker/settings.h"
+#include "baker/stage_cost.h"
 #include "baker/texel/texels.h"
 #include "baker/unwrap/unwrap.h"
 #include "runtime/base/parallel.h"
@@ -18,21 +21,6 @@
 #include "runtime/scene/scene.h"
 
 namespace surimi {
-
-struct BakeSettings {
-    UnwrapSettings unwrap;
-    bool finds_inside = true;  ///< texels inside other geometry are found and filled instead of lit
-    GatherSettings gather;
-    size_t audit = 0;  ///< texels of each monitor to check against many rays; 0: none
-};
-
-/// What one stage cost, over all monitors and pages that it names.
-struct StageCost {
-    std::string stage;
-    double seconds = 0;
-    size_t rays = 0;
-    size_t peak_bytes = 0;  ///< resident set of the process at its highest so far
-};
 
 /// One page of the atlas.
 struct BakedPage {
@@ -44,6 +32,7 @@ struct BakedPage {
 /// How a monitor's channel came about, and how far it is from the truth.
 struct MonitorEvidence {
     GatherStatistics statistics;  ///< of all pages
+    StitchReport seams;           ///< of all pages; zeros where none were stitched
     std::vector<Audit> audits;    ///< by page; empty when none was asked for
 };
 
@@ -58,7 +47,8 @@ struct Bake {
 };
 
 /// Bakes scene.monitors into one map for each page of the atlas. The result depends on scene and settings alone, not on
-/// the number of threads. Throws what its stages throw, and Error(interrupted).
+/// the number of threads, nor on how it keeps within settings.memory. Throws what its stages throw, Error(interrupted),
+/// and Error(usage) before light is gathered where the memory does not suffice.
 Bake bake(const Scene& scene, const BakeSettings& settings, const Progress& progress);
 
 }  // namespace surimi

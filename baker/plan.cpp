@@ -6,16 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "baker/monitor_warnings.h"
 #include "runtime/scene/texture.h"
 
 namespace surimi {
 namespace {
-
-template <class Item>
-size_t bytes_of(const std::vector<Item>& items) {
-    return items.size() * sizeof(Item);
-}
 
 std::string percent(double part, double whole) {
     const double value = whole > 0 ? 100 * part / whole : 0;
@@ -41,16 +35,17 @@ class StageList {
         const Atlas& atlas = preparation_.atlas;
         const std::string uv = atlas.is_existing ? "TEXCOORD_1 of the file is taken as it is, after a check"
                                                  : fmt::format("{} new charts", atlas.charts.size());
-        add("unwrap", uv + (atlas.uv_reason.empty() ? "" : ": " + atlas.uv_reason), preparation_.unwrap_seconds);
+        add("unwrap", uv + (atlas.uv_reason.empty() ? "" : ": " + atlas.uv_reason),
+            seconds_of(preparation_.costs, "unwrap"));
         add("texels", fmt::format("{} texels that {} triangles touch", plan_.texels, triangle_count(scene_)),
-            preparation_.texels_seconds);
-        add("rays", "tree over all triangles", preparation_.rays_seconds);
+            seconds_of(preparation_.costs, "texels"));
+        add("rays", "tree over all triangles", seconds_of(preparation_.costs, "rays"));
         const size_t masked = masked_surfaces(scene_);
         add_part("alpha filter", masked > 0,
                  masked > 0
                      ? fmt::format("{} of {} surfaces have alpha-masked materials", masked, scene_.surfaces.size())
                      : "every surface is opaque to rays, so none is asked for its texture");
-        add("silhouettes", silhouettes_reason(), preparation_.silhouettes_seconds);
+        add("silhouettes", silhouettes_reason(), seconds_of(preparation_.costs, "silhouettes"));
     }
 
     void add_monitor(size_t m, double fill_seconds) {
@@ -143,26 +138,6 @@ class StageList {
     Plan& plan_;
 };
 
-PlannedMemory memory_of(const Scene& scene, const Plan& plan, const Preparation& preparation) {
-    PlannedMemory memory;
-    const size_t map = static_cast<size_t>(plan.width) * static_cast<size_t>(plan.height);
-    const size_t of_monitor = sizeof(TexelState) + sizeof(IrradianceEstimate);
-    memory.map = map * static_cast<size_t>(plan.pages) * (sizeof(Vec3f) + scene.monitors.size() * of_monitor);
-    size_t most = 0;
-    for (const Texels& texels : preparation.texels) {
-        memory.texels += bytes_of(texels.texels) + bytes_of(texels.triangles);
-        most = std::max(most, texels.texels.size());
-    }
-    const Silhouettes& s = preparation.silhouettes;
-    memory.silhouettes =
-        bytes_of(s.planes) + bytes_of(s.edges) + bytes_of(s.nodes) + bytes_of(s.cutout_nodes) + bytes_of(s.cutouts);
-    for (const auto& planes : s.plane_of) memory.silhouettes += bytes_of(planes);
-    memory.embree = preparation.rays_bytes;
-    const size_t passing = most * sizeof(IrradianceEstimate) + map * (sizeof(float) + sizeof(TexelState));
-    memory.peak = std::max(peak_resident_bytes(), resident_bytes() + memory.map + passing);
-    return memory;
-}
-
 }  // namespace
 
 double Plan::seconds() const {
@@ -178,7 +153,8 @@ double Plan::rays() const {
 }
 
 Plan plan(const Scene& scene, const BakeSettings& settings, const Progress& progress) {
-    const Preparation preparation = prepare(scene, settings.unwrap, progress);
+    check_memory_of_maps(scene, settings);
+    const Preparation preparation = prepare(scene, settings, progress);
     const Atlas& atlas = preparation.atlas;
     Plan plan;
     plan.width = atlas.width;
@@ -186,9 +162,10 @@ Plan plan(const Scene& scene, const BakeSettings& settings, const Progress& prog
     plan.pages = atlas.pages;
     plan.texels_per_metre = atlas.texels_per_metre;
     for (const Texels& texels : preparation.texels) plan.texels += texels.texels.size();
-    plan.memory = memory_of(scene, plan, preparation);
-    plan.warnings = monitor_warnings(scene, *preparation.rays);
-    plan.warnings.insert(plan.warnings.end(), atlas.warnings.begin(), atlas.warnings.end());
+    BakeSettings bounded = settings;
+    bounded.gather.band_rows = rows_within_memory(scene, preparation, settings);
+    plan.memory = planned_memory(scene, preparation, bounded);
+    plan.warnings = preparation.warnings;
     for (size_t m = 0; m < scene.monitors.size(); ++m) {
         PlannedMonitor& monitor = plan.monitors.emplace_back();
         monitor.reach = find_reach(scene, preparation, m, settings.gather);

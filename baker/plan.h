@@ -8,6 +8,7 @@
 
 #include "baker/bake.h"
 #include "baker/calibration.h"
+#include "baker/memory.h"
 #include "baker/preparation.h"
 #include "baker/reach.h"
 
@@ -29,15 +30,6 @@ struct PlannedMonitor {
     Calibration calibration;
 };
 
-/// Bytes. All but those of Embree and the process follow from the scene.
-struct PlannedMemory {
-    size_t map = 0;          ///< maps and the evidence behind them
-    size_t texels = 0;       ///< which triangles each touches
-    size_t silhouettes = 0;  ///< edges, planes, tree
-    size_t embree = 0;       ///< measured
-    size_t peak = 0;         ///< of the process: measured so far, and what is still to come
-};
-
 struct Plan {
     int width = 0, height = 0, pages = 1;
     double texels_per_metre = 0;
@@ -52,7 +44,7 @@ struct Plan {
 };
 
 /// The result does not refer to the scene. Deterministic but for seconds and for what memory is measured. Throws what
-/// unwrap() throws, and Error(interrupted).
+/// unwrap() throws, Error(interrupted), and Error(usage) where the bake would for want of memory.
 Plan plan(const Scene& scene, const BakeSettings& settings, const Progress& progress);
 
 }  // namespace surimi

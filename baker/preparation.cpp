@@ -1,51 +1,42 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "baker/preparation.h"
 
-#include <sys/resource.h>
-#include <unistd.h>
-
-#include <chrono>
-#include <fstream>
+#include "baker/gather/cover.h"
+#include "baker/monitor_warnings.h"
 
 namespace surimi {
 namespace {
 
-/// Seconds that `work` takes.
-template <class Work>
-double seconds_of(const Work& work) {
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+void append(std::vector<std::string>& lines, const std::vector<std::string>& more) {
+    lines.insert(lines.end(), more.begin(), more.end());
 }
 
 }  // namespace
 
-Preparation prepare(const Scene& scene, const UnwrapSettings& settings, const Progress& progress) {
+Preparation prepare(const Scene& scene, const BakeSettings& settings, const Progress& progress) {
     Preparation result;
-    result.unwrap_seconds = seconds_of([&] { result.atlas = unwrap(scene, settings, progress); });
-    result.texels_seconds = seconds_of([&] {
-        for (int page = 0; page < result.atlas.pages; ++page)
-            result.texels.push_back(find_texels(scene, result.atlas, page));
-    });
+    Stopwatch stopwatch(result.costs);
+    result.atlas = unwrap(scene, settings.unwrap, progress);
+    stopwatch.finish("unwrap");
+    for (int page = 0; page < result.atlas.pages; ++page)
+        result.texels.push_back(find_texels(scene, result.atlas, page));
+    stopwatch.finish("texels");
     const size_t before = resident_bytes();
-    result.rays_seconds = seconds_of([&] { result.rays = std::make_unique<RayScene>(scene); });
+    result.rays = std::make_unique<RayScene>(scene);
     const size_t after = resident_bytes();
     result.rays_bytes = after > before ? after - before : 0;
-    result.silhouettes_seconds = seconds_of([&] { result.silhouettes = find_silhouettes(scene, *result.rays); });
+    result.warnings = monitor_warnings(scene, *result.rays);
+    append(result.warnings, result.atlas.warnings);
+    if (settings.gather.clears_covers) append(result.warnings, describe_covers(scene, *result.rays));
+    stopwatch.finish("rays");
+    if (settings.finds_inside) result.exposure = find_exposures(scene, result.atlas, *result.rays, result.texels);
+    append(result.warnings, result.exposure.warnings);
+    stopwatch.finish("inside");
+    result.silhouettes = find_silhouettes(scene, *result.rays);
+    stopwatch.finish("silhouettes");
+    if (settings.post.stitches_seams) result.seams = find_seams(scene, result.atlas);
+    stopwatch.finish("seams");
     return result;
-}
-
-size_t resident_bytes() {
-    std::ifstream file("/proc/self/statm");  // pages: all, resident, ...
-    size_t all = 0, resident = 0;
-    if (!(file >> all >> resident)) return 0;
-    return resident * static_cast<size_t>(sysconf(_SC_PAGESIZE));
-}
-
-size_t peak_resident_bytes() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<size_t>(usage.ru_maxrss) * 1024;
 }
 
 }  // namespace surimi

@@ -102,6 +102,10 @@ void check_ranges(const GatherWishes& wishes, const std::string& source) {
                 "samples must be from 0 (as many as the error takes) to 1048576");
     if (wishes.audit)
         require(*wishes.audit >= 0 && *wishes.audit <= 1000000, source, "audit must be from 0 to 1000000 texels");
+    if (wishes.supersample)
+        require(*wishes.supersample >= 1 && *wishes.supersample <= largest_supersample, source,
+                fmt::format("supersample must be from 1 to {}", largest_supersample));
+    if (wishes.memory) require(*wishes.memory >= 0, source, "memory must be in MiB, or 0 for no bound");
 }
 
 /// A variable of the environment that is set and not empty.
@@ -179,12 +183,27 @@ void add_gather_options(CLI::App& app, GatherWishes& wishes) {
         "Exit with 5 when the estimates or the audit say that the error asked for is not reached "
         "(Env:SURIMI_STRICT)");
     app.add_option("--seed", wishes.seed, "Seed of the random numbers [0]")->option_text("N (Env:SURIMI_SEED)");
+    app.add_option("--supersample", wishes.supersample,
+                   "Gather light on N x N subtexels of each texel, 1 to 4, then average what arrives [1]")
+        ->option_text("N (Env:SURIMI_SUPERSAMPLE)");
+    app.add_option("--memory", wishes.memory,
+                   "MiB that the bake may take: the map is lit in bands of rows that keep within it; the map itself "
+                   "must fit, and writing it comes on top; 0: no bound [0]")
+        ->option_text("MIB (Env:SURIMI_MEMORY)");
 }
 
 GatherWishes environment_wishes() {
-    return {number("SURIMI_ERROR"),       truth("SURIMI_EXACT"),  variable("SURIMI_METHOD"),
-            variable("SURIMI_QUALITY"),   number("SURIMI_TIME"),  integer<int>("SURIMI_SAMPLES"),
-            integer<int>("SURIMI_AUDIT"), truth("SURIMI_STRICT"), integer<uint64_t>("SURIMI_SEED")};
+    return {number("SURIMI_ERROR"),
+            truth("SURIMI_EXACT"),
+            variable("SURIMI_METHOD"),
+            variable("SURIMI_QUALITY"),
+            number("SURIMI_TIME"),
+            integer<int>("SURIMI_SAMPLES"),
+            integer<int>("SURIMI_AUDIT"),
+            truth("SURIMI_STRICT"),
+            integer<uint64_t>("SURIMI_SEED"),
+            integer<int>("SURIMI_SUPERSAMPLE"),
+            integer<int>("SURIMI_MEMORY")};
 }
 
 void apply(const GatherWishes& wishes, const std::string& source, Config& config) {
@@ -213,6 +232,8 @@ void apply(const GatherWishes& wishes, const std::string& source, Config& config
     if (gather.method != Method::monte_carlo && (wishes.method || gather.is_exact)) gather.samples = 0;
     if (wishes.samples) gather.samples = *wishes.samples;
     if (wishes.seed) gather.seed = *wishes.seed;
+    if (wishes.supersample) gather.supersample = *wishes.supersample;
+    if (wishes.memory) config.bake.memory = static_cast<size_t>(*wishes.memory) << 20;
     if (wishes.audit) config.bake.audit = static_cast<size_t>(*wishes.audit);
     if (wishes.is_strict) config.is_strict = *wishes.is_strict;
 }
@@ -242,6 +263,8 @@ std::string gather_toml(const Config& config) {
     text += fmt::format("audit = {}              # texels of each monitor\n", config.bake.audit);
     text += fmt::format("strict = {}         # exit with 5 when the error is not reached\n", config.is_strict);
     text += fmt::format("seed = {}\n", gather.seed);
+    text += fmt::format("supersample = {}          # subtexels along a texel's side\n", gather.supersample);
+    text += fmt::format("memory = {}               # MiB; 0: no bound\n", config.bake.memory >> 20);
     return text;
 }
 
@@ -254,6 +277,7 @@ void add_gather_json(const Config& config, nlohmann::ordered_json& json) {
     json["samples"] = gather.samples;
     json["audit"] = config.bake.audit;
     json["seed"] = gather.seed;
+    json["supersample"] = gather.supersample;
 }
 
 }  // namespace surimi

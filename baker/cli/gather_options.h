@@ -29,9 +29,11 @@ struct GatherWishes {
     std::optional<int> audit;
     std::optional<bool> is_strict;
     std::optional<uint64_t> seed;
+    std::optional<int> supersample;
+    std::optional<int> memory;  ///< MiB
 };
 
-/// --error, --exact, --quality, --time, --method, --samples, --audit, --strict, --seed.
+/// --error, --exact, --quality, --time, --method, --samples, --audit, --strict, --seed, --supersample, --memory.
 void add_gather_options(CLI::App& app, GatherWishes& wishes);
 
 /// What SURIMI_ERROR, SURIMI_EXACT and so on say. Throws Error(usage) for values of the wrong type.

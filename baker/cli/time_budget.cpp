@@ -67,9 +67,8 @@ std::string spend(const Scene& scene, Config& config, const Progress& progress) 
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     };
     GatherSettings& gather = config.bake.gather;
-    const Preparation preparation = prepare(scene, config.bake.unwrap, progress);
-    double rest = preparation.unwrap_seconds + preparation.texels_seconds + preparation.rays_seconds +
-                  preparation.silhouettes_seconds;  // the bake does it again
+    const Preparation preparation = prepare(scene, config.bake, progress);
+    double rest = seconds_of(preparation.costs);  // the bake does it again
     for (size_t m = 0; m < scene.monitors.size(); ++m) {
         rest += calibrate_fill(scene, preparation);
         if (config.bake.audit > 0)

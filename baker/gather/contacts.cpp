@@ -9,8 +9,6 @@ namespace {
 
 // A share of the texel that matters to no error that can be asked for.
 constexpr double least_part = 1e-4;
-// Each part is a point at least.
-constexpr size_t most_pieces = 24;
 
 struct Box {
     Vec3 low{INFINITY}, high{-INFINITY};
@@ -98,7 +96,7 @@ void find_contacts(const RayScene& rays, std::span<const BoxedTriangle> triangle
 }
 
 TexelSurface::CutResult cut_along(std::span<const TexelSurface::Crossing> contacts, TexelSurface& surface) {
-    return surface.cut(contacts, least_part, most_pieces);
+    return surface.cut(contacts, least_part, most_parts_of_texel);
 }
 
 TexelSurface::CutResult cut_at_contacts(const RayScene& rays, std::span<const BoxedTriangle> triangles,

@@ -11,6 +11,9 @@
 
 namespace surimi {
 
+/// A texel is cut in so many pieces at most: each is a point at least.
+inline constexpr size_t most_parts_of_texel = 24;
+
 /// Relative to RayScene::center().
 struct BoxedTriangle {
     std::array<Vec3, 3> corners;

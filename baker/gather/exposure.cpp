@@ -66,6 +66,12 @@ void cut_where_hidden(const RayScene& rays, TexelSurface& surface) {
     cut_where_hidden(rays, triangles_around(rays, places), surface, is_touched);
 }
 
+void keep_free_pieces(const RayScene& rays, const Texel& texel, TexelSurface& surface) {
+    if (texel.free_pieces == Texel::all_pieces || texel.is_inside()) return;
+    cut_where_hidden(rays, surface);
+    surface.keep(texel.free_pieces);
+}
+
 bool is_lit(std::span<const Panel> panels, const RayScene& rays, const TexelSurface& surface) {
     return unshadowed_at(panels, rays, surface.center()) > 0 || has_lit_corner(panels, rays, surface);
 }
@@ -80,12 +86,16 @@ TexelSurface exposed_surface(const Receivers& receivers, const Texel& texel, std
         back.turn_over();
         if (is_lit(panels, rays, back)) return back;
     }
-    if (texel.free_pieces != Texel::all_pieces && !texel.is_inside()) {
-        cut_where_hidden(rays, surface);
-        surface.keep(texel.free_pieces);
-    }
+    keep_free_pieces(rays, texel, surface);
     if (receivers.lifts_smooth) lift_pieces(rays, surface);
     return surface;
+}
+
+double exposed_area(const Receivers& receivers, const Texel& texel) {
+    if (texel.is_inside()) return 0;
+    TexelSurface surface(receivers.scene, receivers.atlas, receivers.texels, texel);
+    keep_free_pieces(receivers.rays, texel, surface);
+    return surface.area();
 }
 
 namespace {
@@ -111,7 +121,29 @@ struct Judging {
         });
         return is_called_for && judge.judge(back, texel_size, hash(key, 1)) != Enclosure::enclosed;
     }
+
+    /// As Texel::free_pieces; adds to `probes`.
+    uint32_t free_pieces_of(TexelSurface surface, uint64_t key, size_t& probes) const {
+        const double texel_size = std::sqrt(surface.area());
+        cut_where_hidden(rays, surface);
+        const size_t count = surface.pieces().size();
+        if (count > most_parts_of_texel) return Texel::all_pieces;
+        uint32_t free = 0;
+        for (size_t i = 0; i < count; ++i) {
+            const TexelSurface::Piece& piece = surface.pieces()[i];
+            const SurfacePoint middle = TexelSurface::point_of(piece, piece.middle());
+            if (judge.judge(middle, texel_size, hash(key, i)) != Enclosure::enclosed) free |= 1u << i;
+        }
+        probes += count;
+        return free == (1u << count) - 1 ? Texel::all_pieces : free;
+    }
 };
+
+/// Of the random numbers of a texel's probes.
+uint64_t key_of(const Texels& texels, const Texel& texel) {
+    const auto page_size = static_cast<uint64_t>(texels.width) * static_cast<uint64_t>(texels.height);
+    return hash(0x696e73696465, static_cast<uint64_t>(texels.page) * page_size + texel.index);
+}
 
 /// The texels of one block, judged.
 class BlockJudge {
@@ -145,10 +177,7 @@ class BlockJudge {
     Texel& texel_of(int member) { return texels_.texels[members_[static_cast<size_t>(member)]]; }
     Contact contact_of(int member) const { return contacts_[members_[static_cast<size_t>(member)]]; }
 
-    uint64_t key(const Texel& texel) const {
-        const auto page_size = static_cast<uint64_t>(texels_.width) * static_cast<uint64_t>(texels_.height);
-        return hash(0x696e73696465, static_cast<uint64_t>(texels_.page) * page_size + texel.index);
-    }
+    uint64_t key(const Texel& texel) const { return key_of(texels_, texel); }
 
     TexelSurface surface_of(const Texel& texel) const {
         return TexelSurface(judging_.scene, judging_.atlas, texels_, texel);
@@ -206,25 +235,10 @@ class BlockJudge {
 
     void judge_touched(Texel& texel, Contact contact) {
         if (contact == Contact::crossed)
-            texel.free_pieces = free_pieces_of(texel);
+            texel.free_pieces = judging_.free_pieces_of(surface_of(texel), key(texel), probes_);
         else if (judge(texel) == Enclosure::enclosed)
             texel.free_pieces = 0;
         if (!texel.is_inside()) judge_back(texel);
-    }
-
-    uint32_t free_pieces_of(const Texel& texel) {
-        TexelSurface surface = surface_of(texel);
-        const double texel_size = std::sqrt(surface.area());
-        cut_where_hidden(judging_.rays, surface);
-        uint32_t free = 0;
-        const size_t count = surface.pieces().size();
-        for (size_t i = 0; i < count; ++i) {
-            const TexelSurface::Piece& piece = surface.pieces()[i];
-            const SurfacePoint middle =
-                TexelSurface::point_of(piece, piece.is_square ? Vec2(0.5) : Vec2(2.0 / 3, 1.0 / 3));
-            if (judge(middle, texel_size, hash(key(texel), i)) != Enclosure::enclosed) free |= 1u << i;
-        }
-        return free == (1u << count) - 1 ? Texel::all_pieces : free;
     }
 
     const Judging& judging_;
@@ -294,6 +308,20 @@ ExposureCounts find_exposures(const Scene& scene, const Atlas& atlas, const RayS
         }
     }
     return counts;
+}
+
+void expose_parts(const Scene& scene, const Atlas& fine, const RayScene& rays, Texels& subtexels) {
+    const auto is_partial = [](const Texel& t) { return t.free_pieces != Texel::all_pieces && !t.is_inside(); };
+    if (std::ranges::none_of(subtexels.texels, is_partial)) return;
+    const EnclosureJudge judge(scene, rays);
+    const Judging judging{scene, fine, rays, judge, {}};
+    parallel_for(subtexels.texels.size(), 64, [&](size_t i) {
+        Texel& texel = subtexels.texels[i];
+        if (!is_partial(texel)) return;
+        size_t probes = 0;
+        texel.free_pieces =
+            judging.free_pieces_of(TexelSurface(scene, fine, subtexels, texel), key_of(subtexels, texel), probes);
+    });
 }
 
 }  // namespace surimi

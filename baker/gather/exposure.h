@@ -27,6 +27,9 @@ struct ExposureCounts {
 /// group of a tile says it for all. Two-sided surfaces' texels may turn where their back is not enclosed.
 ExposureCounts find_exposures(const Scene& scene, const Atlas& atlas, const RayScene& rays, std::span<Texels> pages);
 
+/// Judges the subtexels anew whose texel was found to be partly inside, and no others.
+void expose_parts(const Scene& scene, const Atlas& fine, const RayScene& rays, Texels& subtexels);
+
 /// One page and what stands around it.
 struct Receivers {
     const Scene& scene;
@@ -39,6 +42,9 @@ struct Receivers {
 /// The part of a texel that takes light from these panels: what find_exposures() left free of its front, or its back
 /// where it may turn and only that can be lit. Smooth pieces of the front are lifted (lift_pieces.h).
 TexelSurface exposed_surface(const Receivers& receivers, const Texel& texel, std::span<const Panel> panels);
+
+/// m^2 of a texel that is free: its area less what is inside other geometry.
+double exposed_area(const Receivers& receivers, const Texel& texel);
 
 /// E (M1) of all panels at unit radiance.
 double unshadowed_at(std::span<const Panel> panels, const RayScene& rays, const SurfacePoint& point);

@@ -5,9 +5,13 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "baker/gather/block_light.h"
 #include "baker/gather/blocks.h"
+#include "baker/gather/downsample.h"
+#include "baker/gather/exposure.h"
 
 namespace surimi {
 
@@ -48,27 +52,37 @@ void GatherStatistics::count(const IrradianceEstimate& estimate, double asked) {
 
 namespace {
 
-/// One call of gather: its blocks, and what became of the texels so far.
+/// What a band sees around it: tiles above it, lit already, and below it. The first tile below is lit with the band,
+/// whose rim it may change, and the second one tells where charts end.
+constexpr int tiles_above = 1, tiles_below = 2;
+
+/// One band of rows: its blocks, and what became of the texels so far.
 struct Gathering {
     const Atlas& atlas;
-    const Texels& texels;
-    MonitorSetup setup;
+    const Texels& texels;  ///< of the rows at hand
+    const MonitorSetup& setup;
+    Rows at_hand;
     Blocks blocks;
-    std::vector<LitTexel> lit;        ///< one for each of Texels::texels
-    std::vector<uint32_t> number_at;  ///< of the texel at each place of the map, or `nobody`
+    std::vector<LitTexel> lit;        ///< one for each of `texels`
+    std::vector<uint32_t> number_at;  ///< of the texel at each place of the rows at hand, or `nobody`
     std::vector<GatherStatistics> parts;
 
     static constexpr uint32_t nobody = 0xffffffffu;
     static constexpr size_t grain = 4;  // blocks; a few milliseconds
+
+    size_t first_index() const { return static_cast<size_t>(at_hand.begin) * static_cast<size_t>(texels.width); }
+    size_t place(int x, int y) const {
+        return static_cast<size_t>(y - at_hand.begin) * static_cast<size_t>(texels.width) + static_cast<size_t>(x);
+    }
 };
 
 /// Number of the texel of the same chart `step` further on the map, or `nobody`.
 uint32_t mate_of(const Gathering& g, uint32_t number, const glm::ivec2& step) {
     const Texel& texel = g.texels.texels[number];
-    const int width = g.texels.width, height = g.texels.height;
-    const int x = static_cast<int>(texel.index) % width + step.x, y = static_cast<int>(texel.index) / width + step.y;
-    if (x < 0 || y < 0 || x >= width || y >= height) return Gathering::nobody;
-    const uint32_t other = g.number_at[static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)];
+    const auto width = static_cast<uint32_t>(g.texels.width);
+    const int x = static_cast<int>(texel.index % width) + step.x, y = static_cast<int>(texel.index / width) + step.y;
+    if (x < 0 || y < g.at_hand.begin || x >= g.texels.width || y >= g.at_hand.end) return Gathering::nobody;
+    const uint32_t other = g.number_at[g.place(x, y)];
     const bool is_mate = other != Gathering::nobody && g.texels.texels[other].chart == texel.chart;
     return is_mate ? other : Gathering::nobody;
 }
@@ -105,17 +119,20 @@ double footprint_across_tiles(const Gathering& g, const std::vector<float>& visi
                            std::max(difference({1, 1}), difference({1, -1})));
 }
 
-/// Calls visit(number of the block, its part of the statistics) for all blocks, in parallel.
+/// Calls visit(number of the block, its part of the statistics) for all blocks of these texels, in parallel. Rows of
+/// tiles are whole among the numbers, so a block's first texel speaks for it.
 template <class Visit>
-void for_each_block(Gathering& g, const Progress& progress, const Visit& visit) {
+void for_each_block(Gathering& g, const Numbers& numbers, const Progress& progress, const Visit& visit) {
     parallel_stage("light from " + g.setup.light().name, g.blocks.count(), Gathering::grain, progress,
                    [&](size_t begin, size_t end) {
-                       for (size_t b = begin; b < end; ++b) visit(b, g.parts[begin / Gathering::grain]);
+                       for (size_t b = begin; b < end; ++b)
+                           if (g.blocks[b].front() >= numbers.begin && g.blocks[b].front() < numbers.end)
+                               visit(b, g.parts[begin / Gathering::grain]);
                    });
 }
 
 /// Texels at the rim of a tile that were judged by their centre, without the neighbour in the next tile.
-void light_rims_again(Gathering& g, const Progress& progress) {
+void light_rims_again(Gathering& g, const Numbers& numbers, const Progress& progress) {
     std::vector<float> visibility(g.lit.size());
     for (size_t i = 0; i < g.lit.size(); ++i) {
         const IrradianceEstimate& e = g.lit[i].estimate;
@@ -127,7 +144,7 @@ void light_rims_again(Gathering& g, const Progress& progress) {
         const uint32_t x = index % width % tile_size, y = index / width % tile_size;
         return x == 0 || y == 0 || x + 1 == tile_size || y + 1 == tile_size;
     };
-    for_each_block(g, progress, [&](size_t b, GatherStatistics& statistics) {
+    for_each_block(g, numbers, progress, [&](size_t b, GatherStatistics& statistics) {
         std::vector<uint32_t> members;
         std::vector<double> footprints;
         for (const uint32_t number : g.blocks[b]) {
@@ -139,27 +156,115 @@ void light_rims_again(Gathering& g, const Progress& progress) {
     });
 }
 
+/// Gathers band after band of a page. The last tile of a band and the first one of the next are neighbours across the
+/// bands' border: what became of them is carried on.
+class Bands {
+  public:
+    Bands(const Atlas& atlas, const MonitorSetup& setup) : atlas_(atlas), setup_(setup) {}
+
+    /// Estimates of the texels in `rows`, which follow those of the last call. `texels` has them and those around.
+    Gathered next(const Texels& texels, const Rows& rows, const Progress& progress) {
+        const Rows at_hand = rows_around(rows, texels.height);
+        Gathering g{atlas_, texels, setup_, at_hand, find_blocks(texels), std::exchange(carried_, {}), {}, {}};
+        const size_t carried = g.lit.size();
+        const Numbers own = numbers_in(texels, rows);
+        const Numbers border = numbers_in(texels, {rows.end - tile_size, rows.end + tile_size});
+        g.lit.resize(texels.texels.size());
+        g.parts.resize((g.blocks.count() + Gathering::grain - 1) / Gathering::grain);
+        g.number_at.assign(g.place(0, at_hand.end), Gathering::nobody);
+        for (const uint32_t i : g.blocks.order) g.number_at[texels.texels[i].index - g.first_index()] = i;
+
+        for_each_block(g, {carried, border.end}, part_of(progress, 0, 2),
+                       [&](size_t b, GatherStatistics& statistics) { light_members(g, g.blocks[b], {}, statistics); });
+        if (rows.end < texels.height) {
+            const std::span lit(g.lit);
+            const auto both = lit.subspan(border.begin, border.count());
+            carried_.assign(both.begin(), both.end());
+        }
+        light_rims_again(g, own, part_of(progress, 1, 2));
+
+        Gathered result;
+        for (const GatherStatistics& part : g.parts) result.statistics.add(part);
+        result.estimates.reserve(own.count());
+        for (size_t i = own.begin; i < own.end; ++i) result.estimates.push_back(g.lit[i].estimate);
+        return result;
+    }
+
+    static Rows rows_around(const Rows& rows, int height) {
+        return {std::max(0, rows.begin - tiles_above * tile_size),
+                std::min(height, rows.end + tiles_below * tile_size)};
+    }
+
+  private:
+    const Atlas& atlas_;
+    const MonitorSetup& setup_;
+    std::vector<LitTexel> carried_;  // of the last tile of the last band and of the tile below it
+};
+
 }  // namespace
+
+int rows_of_band(int width, const GatherSettings& settings) {
+    if (settings.band_rows > 0) return settings.band_rows;
+    constexpr int subtexels = 1 << 20;
+    const int of_row = width * settings.supersample * settings.supersample;
+    return std::max(1, subtexels / of_row / tile_size) * tile_size;
+}
+
+size_t band_bytes(const Texels& texels, const GatherSettings& settings) {
+    if (texels.texels.empty()) return 0;
+    const int step = rows_of_band(texels.width, settings);
+    size_t most = 0;  // texels of a band and around it
+    for (int begin = 0; begin < texels.height; begin += step) {
+        const Rows rows{begin, begin + step};
+        most = std::max(most, numbers_in(texels, Bands::rows_around(rows, texels.height)).count());
+    }
+    const auto side = static_cast<size_t>(settings.supersample);
+    const size_t rows = std::min(static_cast<size_t>(texels.height),
+                                 static_cast<size_t>(step + (tiles_above + tiles_below) * tile_size));
+    const size_t triangles = sizeof(TriangleRef) * texels.triangles.size() / texels.texels.size();
+    const size_t of_texel = sizeof(Texel) + triangles;
+    const size_t of_subtexel = of_texel + sizeof(LitTexel) + 2 * sizeof(uint32_t) + sizeof(IrradianceEstimate) +
+                               sizeof(GatherStatistics) / (Gathering::grain * tile_size * tile_size);
+    const size_t places = rows * static_cast<size_t>(texels.width) * side * side;
+    return places * sizeof(uint32_t) + most * (side * side * of_subtexel + (side > 1 ? of_texel : 0));
+}
 
 Gathered gather(const Scene& scene, const Atlas& atlas, const Texels& texels, const RayScene& rays,
                 const Silhouettes& silhouettes, size_t monitor, const GatherSettings& settings,
                 const Progress& progress) {
-    Gathering g{atlas, texels, set_up(scene, rays, silhouettes, monitor, settings), find_blocks(texels), {}, {}, {}};
-    g.lit.resize(texels.texels.size());
-    g.parts.resize((g.blocks.count() + Gathering::grain - 1) / Gathering::grain);
-    g.number_at.assign(static_cast<size_t>(texels.width) * static_cast<size_t>(texels.height), Gathering::nobody);
-    for (const uint32_t i : g.blocks.order) g.number_at[texels.texels[i].index] = i;
-
-    for_each_block(g, part_of(progress, 0, 2),
-                   [&](size_t b, GatherStatistics& statistics) { light_members(g, g.blocks[b], {}, statistics); });
-    light_rims_again(g, part_of(progress, 1, 2));
-
-    Gathered result;
-    for (const GatherStatistics& part : g.parts) result.statistics.add(part);
-    for (const LitTexel& texel : g.lit) {
-        result.estimates.push_back(texel.estimate);
-        result.statistics.count(texel.estimate, settings.error);
+    const MonitorSetup setup = set_up(scene, rays, silhouettes, monitor, settings);
+    const int side = settings.supersample, step = rows_of_band(texels.width, settings);
+    static_assert(largest_supersample <= most_subdivided);
+    std::optional<Atlas> fine;
+    if (side > 1) {
+        fine = atlas;
+        fine->width *= side;
+        fine->height *= side;
     }
+    Bands bands(fine ? *fine : atlas, setup);
+    Gathered result;
+    result.estimates.reserve(texels.texels.size());
+    const auto count = static_cast<size_t>((texels.height + step - 1) / step);
+    for (size_t band = 0; band < count; ++band) {
+        const int begin = static_cast<int>(band) * step;
+        const Rows rows{begin, std::min(begin + step, texels.height)};
+        const Texels around = texels_in(texels, Bands::rows_around(rows, texels.height));
+        const Progress of_band = part_of(progress, band, count);
+        Gathered part;
+        if (fine) {
+            const Rows sub{side * rows.begin, side * rows.end};
+            Texels subtexels = subdivided(around, *fine, Bands::rows_around(sub, fine->height));
+            expose_parts(scene, *fine, rays, subtexels);
+            part = bands.next(subtexels, sub, of_band);
+            const Texels own = texels_in(subtexels, sub);
+            part.estimates = downsample({scene, *fine, own, rays}, texels_in(around, rows), part.estimates);
+        } else {
+            part = bands.next(around, rows, of_band);
+        }
+        result.statistics.add(part.statistics);
+        result.estimates.insert(result.estimates.end(), part.estimates.begin(), part.estimates.end());
+    }
+    for (const IrradianceEstimate& estimate : result.estimates) result.statistics.count(estimate, settings.error);
     return result;
 }
 

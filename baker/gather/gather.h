@@ -55,9 +55,19 @@ struct Gathered {
     GatherStatistics statistics;
 };
 
+/// Rows of the map that gather() works on at a time with these settings: those asked for, or else so many that a band
+/// has about a million subtexels.
+int rows_of_band(int width, const GatherSettings& settings);
+
+/// Bytes that gather() takes in passing at most, beside its arguments and what it returns.
+size_t band_bytes(const Texels& texels, const GatherSettings& settings);
+
 /// Irradiance that `scene.monitors[monitor]` sends to every texel. Texels that it cannot light (all points behind the
 /// monitor or with the monitor below the horizon) and texels inside other geometry get zeros and cost no ray. Each
-/// texel's random numbers depend on its page and index, the monitor's channel and the seed alone.
+/// texel's random numbers depend on its page and index, the monitor's channel and the seed alone. With supersampling
+/// light is gathered on subtexels, with random numbers of their own, and put together by downsample(); points and rays
+/// are counted for subtexels, texels and errors for texels. Works from the top of the page down, band by band, so that
+/// what is on the way is bounded.
 Gathered gather(const Scene& scene, const Atlas& atlas, const Texels& texels, const RayScene& rays,
                 const Silhouettes& silhouettes, size_t monitor, const GatherSettings& settings,
                 const Progress& progress);

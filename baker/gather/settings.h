@@ -14,6 +14,8 @@ enum class Method {
     monte_carlo  ///< rays
 };
 
+inline constexpr int largest_supersample = 4;
+
 struct GatherSettings {
     double error = 0.004;  ///< of a texel's visibility: 99.9 % of texels are within it, the RMSE within half; in (0, 1]
     bool is_exact =
@@ -23,6 +25,9 @@ struct GatherSettings {
     uint64_t seed = 0;
     bool clears_covers = true;  ///< what lies flat on a monitor does not block it (cover.h)
     bool lifts_smooth = true;   ///< coarse smooth surfaces are seen as round as their normals say (lift.h)
+    int supersample = 1;  ///< subtexels along a texel's side that light is gathered on, 1 to largest_supersample (M64)
+    int band_rows = 0;    ///< rows of the map that are worked on at a time, a multiple of tile_size; 0: rows_of_band();
+                          ///< the result does not depend on them
 };
 
 /// What decided a texel's visibility; the strongest means that any of its points needed. The numbers stand in files.

@@ -40,10 +40,37 @@ struct Texels {
     }
 };
 
+/// Rows of a map, from the one to before the other.
+struct Rows {
+    int begin = 0, end = 0;
+};
+
 /// Conservative: a texel is listed when the closed triangle and the open texel square meet, and a triangle that meets
 /// no open square (it lies on texel borders) is listed with the texels beside it. Where two charts touch one texel
 /// (existing UVs only), the chart of the lower number owns it.
 Texels find_texels(const Scene& scene, const Atlas& atlas, int page = 0);
+
+/// Numbers of texels, from the one to before the other.
+struct Numbers {
+    size_t begin = 0, end = 0;
+
+    size_t count() const { return end - begin; }
+};
+
+/// Of the texels that lie in these rows. Rows outside the map have none.
+Numbers numbers_in(const Texels& texels, const Rows& rows);
+
+/// The texels that lie in these rows, on the same map. Their numbers begin at 0.
+Texels texels_in(const Texels& texels, const Rows& rows);
+
+/// Largest factor of subdivided().
+inline constexpr int most_subdivided = 4;
+
+/// The texels of a finer map under these, as far as they lie in `rows` of that map: `fine` is their atlas with width
+/// and height times one factor of 1 to most_subdivided. A triangle of a texel is listed with those of its subtexels
+/// that find_texels() would list it with, and only there, so that a subtexel has the chart of its texel. It is as free
+/// as its texel; of one that is partly inside other geometry expose_parts() has to say what each subtexel is.
+Texels subdivided(const Texels& texels, const Atlas& fine, const Rows& rows);
 
 /// Where the triangle lies on the map, in texels.
 std::array<Vec2, 3> texel_corners(const Atlas& atlas, const TriangleRef& triangle);

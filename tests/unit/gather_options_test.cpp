@@ -150,6 +150,14 @@ TEST(GatherOptions, RangesEndWhereTheySay) {
     GatherWishes wishes;
     wishes.audit = -1;
     EXPECT_NE(complaint({wishes}).find("audit must be"), std::string::npos);
+    for (const int side : {0, 5}) {
+        GatherWishes subtexels;
+        subtexels.supersample = side;
+        EXPECT_NE(complaint({subtexels}).find("supersample must be from 1 to 4"), std::string::npos);
+    }
+    GatherWishes bound;
+    bound.memory = -1;
+    EXPECT_NE(complaint({bound}).find("memory must be"), std::string::npos);
 }
 
 TEST(GatherOptions, UnknownNamesGetTheNearest) {
@@ -164,6 +172,8 @@ TEST(GatherOptions, WhatIsPrintedReadsBack) {
     all.audit = 17;
     all.is_strict = true;
     all.seed = 99;
+    all.supersample = 3;
+    all.memory = 1500;
     for (const auto& wishes : {all, with_quality("draft"), with_quality("reference"), exactly(), within(12.5),
                                with_method("scanline"), with_error(1), with_error(1e-5)}) {
         const Config config = config_of({wishes});
@@ -175,6 +185,8 @@ TEST(GatherOptions, WhatIsPrintedReadsBack) {
         EXPECT_EQ(back.bake.gather.method, config.bake.gather.method);
         EXPECT_EQ(back.bake.gather.samples, config.bake.gather.samples);
         EXPECT_EQ(back.bake.gather.seed, config.bake.gather.seed);
+        EXPECT_EQ(back.bake.gather.supersample, config.bake.gather.supersample);
+        EXPECT_EQ(back.bake.memory, config.bake.memory);
         EXPECT_EQ(back.bake.audit, config.bake.audit);
         EXPECT_EQ(back.is_strict, config.is_strict);
         EXPECT_EQ(back.seconds, config.seconds);
@@ -186,12 +198,16 @@ TEST(GatherOptions, ManifestHasWhatDecidesTheValues) {
     wishes.error = 0.01;
     wishes.samples = 48;
     wishes.audit = 17;
+    wishes.supersample = 2;
+    wishes.memory = 1500;
     const auto json = nlohmann::json::parse(settings_json(config_of({wishes})));
     EXPECT_EQ(json["error"], 0.01);
     EXPECT_EQ(json["exact"], false);
     EXPECT_EQ(json["method"], "mc");
     EXPECT_EQ(json["samples"], 48);
     EXPECT_EQ(json["audit"], 17);
+    EXPECT_EQ(json["supersample"], 2);
+    EXPECT_FALSE(json.contains("memory")) << "values do not depend on it";
     EXPECT_FALSE(json.contains("time"));
     EXPECT_EQ(nlohmann::json::parse(settings_json(config_of({within(3)})))["time"], 3);
 }
