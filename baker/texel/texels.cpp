@@ -70,7 +70,7 @@ std::array<Vec2, 3> texel_corners(const Atlas& atlas, const TriangleRef& triangl
 Texels find_texels(const Scene& scene, const Atlas& atlas, int page) {
     std::vector<std::vector<Touch>> by_surface(scene.surfaces.size());
     parallel_for(scene.surfaces.size(), 1, [&](size_t s) {
-        if (atlas.surfaces[s].page != page) return;
+        if (atlas.surfaces[s].page != page || atlas.surfaces[s].uv.empty()) return;
         for (uint32_t t = 0; t < scene.surfaces[s].triangles.size(); ++t)
             add_touches(atlas, {static_cast<uint32_t>(s), t}, by_surface[s]);
     });
