@@ -21,8 +21,8 @@ std::string percent(size_t part, size_t whole) {
 }
 
 size_t masked_surfaces(const Scene& scene) {
-    return static_cast<size_t>(
-        std::ranges::count_if(scene.surfaces, [&](const Surface& surface) { return is_cutout(scene, surface); }));
+    return static_cast<size_t>(std::ranges::count_if(
+        scene.surfaces, [&](const Surface& surface) { return surface.casts && is_cutout(scene, surface); }));
 }
 
 /// Writes down a plan's stages in the order of bake().

@@ -162,8 +162,10 @@ std::vector<Reach> find_reach(const Scene& scene, const Preparation& preparation
                               const GatherSettings& settings) {
     const MonitorSetup setup = set_up(scene, *preparation.rays, preparation.silhouettes, monitor, settings);
     std::vector<Reach> reach(scene.surfaces.size());
-    parallel_for(reach.size(), 1,
-                 [&](size_t s) { reach[s] = facing_of(scene.surfaces[s], setup.panels, preparation.rays->center()); });
+    parallel_for(reach.size(), 1, [&](size_t s) {
+        const Surface& surface = scene.surfaces[s];
+        if (surface.receives) reach[s] = facing_of(surface, setup.panels, preparation.rays->center());
+    });
     std::vector<Blocks> blocks;
     for (const Texels& texels : preparation.texels) blocks.push_back(find_blocks(texels));
     const std::vector<Look> looks = choose_blocks(scene, preparation, blocks);

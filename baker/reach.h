@@ -34,8 +34,8 @@ struct Reach {
     BlockCounts blocks;
 };
 
-/// One for each of Scene::surfaces. Blocks: some evenly spaced ones of each surface, the same in every run. Costs
-/// one ray for a panel and block, and those that tell what stands on its texels.
+/// One for each of Scene::surfaces; nothing reaches those that do not receive. Blocks: some evenly spaced ones of each
+/// surface, the same in every run. Costs one ray for a panel and block, and those that tell what stands on its texels.
 std::vector<Reach> find_reach(const Scene& scene, const Preparation& preparation, size_t monitor,
                               const GatherSettings& settings);
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "baker/cli/role_options.h"
 #include "runtime/base/error.h"
 
 namespace surimi {
@@ -100,6 +101,19 @@ TexelScale texel_scale_of(const toml::table& table, const Place& place) {
     return wish;
 }
 
+ObjectRoles object_of(const toml::table& table, const Place& place) {
+    check_keys(table, {"node", "casts", "receives", "two_sided", "exclude"}, place);
+    ObjectRoles object;
+    const toml::node* node = table.get("node");
+    if (!node) place.fail(table, "an object needs \"node\", the name or a pattern");
+    object.node = value_of<std::string>(*node, "node", place);
+    if (table.size() < 2) place.fail(table, "an object needs one of casts, receives, two_sided and exclude");
+    visit_marks(object.roles, [&](const char* key, std::optional<bool>& mark) {
+        if (const toml::node* value = table.get(key)) mark = value_of<bool>(*value, key, place);
+    });
+    return object;
+}
+
 void read_size(const toml::node& node, const Place& place, UnwrapSettings& settings) {
     if (const toml::array* array = node.as_array()) {
         if (array->size() != 2) place.fail(node, "\"size\" must be a number or [width, height]");
@@ -152,6 +166,10 @@ void read_key(const std::string& key, const toml::node& node, const Place& place
     if (key == "threads") config.threads = value_of<int>(node, key, place);
     if (key == "monitor")
         for (const toml::table* item : tables_of(node, key, place)) read_monitor(*item, place, config.monitors);
+    if (key == "glass") config.roles.glass = parse_glass(value_of<std::string>(node, key, place), place.file);
+    if (key == "object")
+        for (const toml::table* item : tables_of(node, key, place))
+            config.roles.objects.push_back(object_of(*item, place));
     if (key == "texel_scale")
         for (const toml::table* item : tables_of(node, key, place))
             config.bake.unwrap.texel_scales.push_back(texel_scale_of(*item, place));
@@ -168,10 +186,10 @@ void read_config_file(const std::filesystem::path& path, Config& config) {
         throw Error(ErrorKind::usage, fmt::format("{}:{}: {}", path.string(), error.source().begin.line,
                                                   std::string(error.description())));
     }
-    check_keys(table,
-               {"size",    "density", "gutter",  "mips",    "atlases",     "stretch",     "uv",      "uv-quality",
-                "uniform", "error",   "exact",   "quality", "time",        "method",      "samples", "audit",
-                "strict",  "seed",    "threads", "monitor", "texel_scale", "supersample", "memory"},
+    check_keys(table, {"size",        "density", "gutter", "mips",   "atlases", "stretch", "uv",
+                       "uv-quality",  "uniform", "error",  "exact",  "quality", "time",    "method",
+                       "samples",     "audit",   "strict", "seed",   "threads", "monitor", "texel_scale",
+                       "supersample", "memory",  "glass",  "object", "without"},
                place);
     if (table.contains("size") && table.contains("density"))
         place.fail(*table.get("density"), "\"size\" and \"density\" exclude each other: one follows from the other");

@@ -57,7 +57,30 @@ UvCounts count_uv_sets(const Scene& scene) {
     return counts;
 }
 
-Json report_json(const Scene& scene, const std::string& problem) {
+/// Surfaces whose roles are not the usual ones; names the first few.
+void print_roles(const Scene& scene, const std::vector<UnusualRoles>& roles) {
+    if (!roles.empty()) fmt::print("roles\n");
+    constexpr size_t most_lines = 20;
+    for (size_t i = 0; i < std::min(roles.size(), most_lines); ++i)
+        fmt::print("  {}: {}\n", scene.surfaces[roles[i].surface].name, roles[i].why);
+    if (roles.size() > most_lines) fmt::print("  and {} more; --json lists them all\n", roles.size() - most_lines);
+}
+
+Json roles_json(const Scene& scene, const std::vector<UnusualRoles>& roles) {
+    Json list = Json::array();
+    for (const UnusualRoles& unusual : roles) {
+        const Surface& surface = scene.surfaces[unusual.surface];
+        list.push_back({{"surface", surface.name},
+                        {"casts", surface.casts},
+                        {"receives", surface.receives},
+                        {"two_sided", surface.is_two_sided},
+                        {"excluded", surface.is_excluded},
+                        {"why", unusual.why}});
+    }
+    return list;
+}
+
+Json report_json(const Scene& scene, const std::vector<UnusualRoles>& roles, const std::string& problem) {
     const Bounds box = bounds(scene);
     const UvCounts uv = count_uv_sets(scene);
     Json report;
@@ -75,6 +98,7 @@ Json report_json(const Scene& scene, const std::string& problem) {
                     {"texcoord_1_out_of_range", uv.second_out_of_range}};
     report["monitors"] = Json::array();
     for (const Monitor& monitor : scene.monitors) report["monitors"].push_back(monitor_json(monitor));
+    report["roles"] = roles_json(scene, roles);
     report["notes"] = Json::array();
     for (const Note& note : scene.notes)
         report["notes"].push_back({{"what", note.what}, {"count", note.count}, {"where", note.where}});
@@ -82,7 +106,7 @@ Json report_json(const Scene& scene, const std::string& problem) {
     return report;
 }
 
-void print_report(const Scene& scene, const std::string& problem) {
+void print_report(const Scene& scene, const std::vector<UnusualRoles>& roles, const std::string& problem) {
     const Bounds box = bounds(scene);
     fmt::print("{}\n", scene.path.filename().string());
     fmt::print("  {} triangles in {} surfaces, {} nodes, {} materials, {} images, {} cameras\n", triangle_count(scene),
@@ -106,6 +130,7 @@ void print_report(const Scene& scene, const std::string& problem) {
             monitor.radiance.z, monitor.reason);
     }
     if (scene.monitors.empty()) fmt::print("  none\n");
+    print_roles(scene, roles);
     if (!scene.notes.empty()) fmt::print("notes\n");
     for (const Note& note : scene.notes)
         fmt::print("  {}: {}{}\n", note.what, note.count, note.where.empty() ? "" : ", first at " + note.where);
@@ -121,18 +146,20 @@ Run add_inspect_command(CLI::App& app) {
     return [given] {
         const Config config = effective_config(*given);
         Scene scene = read_gltf(given->scene);
+        std::vector<UnusualRoles> roles;
         std::string problem;
         ErrorKind kind{};
         try {
+            roles = apply_roles(scene, config.roles);
             find_monitors(scene, config.monitors);
         } catch (const Error& error) {  // the rest of the report is still worth having
             problem = error.what();
             kind = error.kind();
         }
         if (given->json)
-            fmt::print("{}\n", report_json(scene, problem).dump(2));
+            fmt::print("{}\n", report_json(scene, roles, problem).dump(2));
         else
-            print_report(scene, problem);
+            print_report(scene, roles, problem);
         return static_cast<int>(kind);
     };
 }

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "baker/cli/config_file.h"
+#include "baker/cli/role_options.h"
 #include "runtime/base/error.h"
 #include "runtime/scene/gltf.h"
 
@@ -19,6 +20,10 @@ void add_scene_options(CLI::App& app, Given& given) {
         ->type_name("NODE[=R|G|B]")
         ->expected(1)
         ->take_all();
+    app.add_option("--glass", given.glass,
+                   "block: blended and transmissive surfaces cast full shadows; clear: they cast none [block]")
+        ->type_name("block|clear")
+        ->envname("SURIMI_GLASS");
     app.add_option("--config", given.config, "Settings file; default: SCENE's name with .surimi.toml, if it exists")
         ->type_name("FILE")
         ->envname("SURIMI_CONFIG");
@@ -77,6 +82,7 @@ Config effective_config(const Given& given) {
     if (file.empty() && std::filesystem::exists(beside, ignored)) file = beside;
     if (!file.empty()) read_config_file(file, config);
 
+    if (given.glass) config.roles.glass = parse_glass(*given.glass, "--glass");
     UnwrapSettings& unwrap = config.bake.unwrap;
     if (given.uv) unwrap.uv = parse_uv_source(*given.uv, "--uv");
     if (!given.size.empty()) {
@@ -135,6 +141,8 @@ std::string to_toml(const Config& config) {
     text += fmt::format("stretch = {}            # above 1\n", unwrap.stretch);
     text += fmt::format("uv-quality = \"{}\"    # draft, medium, high\n", name_of(unwrap.quality));
     text += fmt::format("uniform = {}          # one density for all\n", unwrap.is_uniform);
+    text += fmt::format("glass = \"{}\"         # block: it casts full shadows; clear: none\n",
+                        name_of(config.roles.glass));
     text += gather_toml(config);
     text += fmt::format("threads = {}              # 0: all cores\n", config.threads);
     for (const TexelScale& wish : unwrap.texel_scales) {
@@ -143,6 +151,7 @@ std::string to_toml(const Config& config) {
         if (!wish.material.empty()) text += fmt::format("material = {}\n", quoted(wish.material));
         text += fmt::format("scale = {}\n", wish.scale);
     }
+    text += objects_toml(config.roles);
     const bool from_command_line = !config.monitors.command_line.empty();
     for (const auto& m : from_command_line ? config.monitors.command_line : config.monitors.config_nodes)
         text += fmt::format("\n[[monitor]]\nnode = {}\n{}", quoted(m.node), channel_line(m.channel));
@@ -160,7 +169,8 @@ std::string to_toml(const Config& config) {
 
 namespace {
 
-nlohmann::ordered_json unwrap_json(const UnwrapSettings& unwrap) {
+nlohmann::ordered_json unwrap_json(const Config& config) {
+    const UnwrapSettings& unwrap = config.bake.unwrap;
     nlohmann::ordered_json json;
     json["uv"] = name_of(unwrap.uv);
     if (unwrap.texels_per_metre > 0)
@@ -179,17 +189,19 @@ nlohmann::ordered_json unwrap_json(const UnwrapSettings& unwrap) {
         if (!wish.material.empty()) item["material"] = wish.material;
         item["scale"] = wish.scale;
     }
+    add_objects_json(config.roles, json);
     return json;
 }
 
 }  // namespace
 
 std::string unwrap_settings_json(const Config& config) {
-    return unwrap_json(config.bake.unwrap).dump();
+    return unwrap_json(config).dump();
 }
 
 std::string settings_json(const Config& config) {
-    nlohmann::ordered_json json = unwrap_json(config.bake.unwrap);
+    nlohmann::ordered_json json = unwrap_json(config);
+    json["glass"] = name_of(config.roles.glass);
     add_gather_json(config, json);
     return json.dump();
 }
@@ -202,6 +214,7 @@ void print_notes(const Scene& scene) {
 
 Scene load_scene(const Given& given, const Config& config) {
     Scene scene = read_gltf(given.scene);
+    apply_roles(scene, config.roles);
     find_monitors(scene, config.monitors);
     if (!given.quiet) print_notes(scene);
     return scene;

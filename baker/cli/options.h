@@ -10,6 +10,7 @@
 #include "baker/bake.h"
 #include "baker/cli/gather_options.h"
 #include "runtime/scene/monitors.h"
+#include "runtime/scene/roles.h"
 
 namespace CLI {
 class App;
@@ -22,6 +23,7 @@ struct Given {
     std::filesystem::path scene;
     std::vector<std::string> monitors;
     std::string config;
+    std::optional<std::string> glass;
     std::optional<std::string> uv;
     std::vector<int> size;
     std::optional<double> density;
@@ -42,13 +44,14 @@ struct Given {
 /// The settings in effect: command line over environment over file over default.
 struct Config {
     MonitorRequest monitors;
+    RoleSettings roles;
     BakeSettings bake;
     double seconds = 0;      ///< to spend on a bake; 0: as many as the error takes
     bool is_strict = false;  ///< an error that is not reached is a failure
     int threads = 0;         ///< 0: all cores
 };
 
-void add_scene_options(CLI::App& app, Given& given);   ///< SCENE, --monitor, --config, --threads, --quiet, --progress
+void add_scene_options(CLI::App& app, Given& given);   ///< SCENE, --monitor, --glass, --config and so on
 void add_unwrap_options(CLI::App& app, Given& given);  ///< --uv, --size, --density, --gutter, --mips and so on
 
 /// Merges the configuration file (given.config, else NAME.surimi.toml beside the scene, if there) and what is given.
@@ -64,7 +67,8 @@ std::string settings_json(const Config& config);
 /// Those of them that decide an unwrap's.
 std::string unwrap_settings_json(const Config& config);
 
-/// Reads the scene and finds its monitors; tells stderr what was dropped or repaired, unless quiet.
+/// Reads the scene, decides the roles of its surfaces and finds its monitors; tells stderr what was dropped or
+/// repaired, unless quiet.
 Scene load_scene(const Given& given, const Config& config);
 
 /// Prints a scene's notes to stderr, a line each.

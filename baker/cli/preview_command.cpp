@@ -227,10 +227,11 @@ int preview(const PreviewOptions& options) {
         throw Error(ErrorKind::usage, options.out.string() + ": the picture must be a .png or .exr");
     if (options.compare && options.show != "lit") throw Error(ErrorKind::usage, "--compare is for --show lit");
     Scene scene = read_gltf(options.given.scene);
+    apply_roles(scene, config.roles);
     find_monitors(scene, monitor_request(scene, config));
     if (!options.given.quiet) print_notes(scene);
     const std::vector<VisibilityMap> pages = load_pages(scene, options);
-    const RayScene rays(scene);
+    const RayScene rays(scene, Attach::everything);
     const Lighting lighting(scene, pages, rays, chosen_lights(scene, options.lights, options.pictures),
                             lighting_settings(options));
     const View view = choose_view(lighting, options);

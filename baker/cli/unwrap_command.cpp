@@ -59,6 +59,7 @@ int unwrap_scene(const Given& given, const std::filesystem::path& out) {
     }
     set_thread_count(config.threads);
     Scene scene = read_gltf(given.scene);
+    apply_roles(scene, config.roles);
     find_monitors_if_any(scene, given, config);
     if (!given.quiet) print_notes(scene);
     const Progress progress = make_progress(given.progress, given.quiet);

@@ -55,7 +55,7 @@ Silhouettes cut_edges(const Scene& scene, const RayScene& rays, const Panel& pan
     std::vector<std::vector<CutEdge>> by_surface(scene.surfaces.size());
     parallel_for(scene.surfaces.size(), 1, [&](size_t s) {
         const Surface& surface = scene.surfaces[s];
-        if (surface.monitor == static_cast<int>(monitor) || is_cutout(scene, surface)) return;
+        if (!surface.casts || surface.monitor == static_cast<int>(monitor) || is_cutout(scene, surface)) return;
         const uint32_t owner = surface.monitor < 0 ? Edge::ordinary : static_cast<uint32_t>(surface.monitor);
         for (const auto& triangle : surface.triangles) {
             std::array<Vec3f, 3> corners;

@@ -32,8 +32,8 @@ struct MonitorSetup {
 MonitorSetup set_up(const Scene& scene, const RayScene& rays, const Silhouettes& silhouettes, size_t monitor,
                     const GatherSettings& settings);
 
-/// The boundary that opaque triangles get where the plane at the panel's clearance cuts them: what is behind it is no
-/// occluder, so the number of occluders changes there (M50). Triangles of `monitor` are left out.
+/// The boundary that opaque triangles that cast get where the plane at the panel's clearance cuts them: what is behind
+/// it is no occluder, so the number of occluders changes there (M50). Triangles of `monitor` are left out.
 Silhouettes cut_edges(const Scene& scene, const RayScene& rays, const Panel& panel, size_t monitor);
 
 }  // namespace surimi

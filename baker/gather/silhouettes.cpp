@@ -53,7 +53,7 @@ std::vector<Part> opaque_parts(const Scene& scene, const std::vector<PanelMesh>&
     std::vector<Part> parts;
     for (size_t s = 0; s < scene.surfaces.size(); ++s) {
         const Surface& surface = scene.surfaces[s];
-        if (is_cutout(scene, surface)) continue;
+        if (!surface.casts || is_cutout(scene, surface)) continue;
         const auto owner = surface.monitor < 0 ? Edge::ordinary : static_cast<uint32_t>(surface.monitor);
         parts.push_back({s, static_cast<uint8_t>(owner), &surface.positions, &surface.triangles});
     }
@@ -172,7 +172,7 @@ std::vector<Edge> edges_of(const WeldedMesh& mesh, const std::vector<Keyed>& hal
 
 void find_cutouts(const Scene& scene, Silhouettes& silhouettes) {
     for (const Surface& surface : scene.surfaces) {
-        if (!is_cutout(scene, surface)) continue;
+        if (!surface.casts || !is_cutout(scene, surface)) continue;
         for (const auto& triangle : surface.triangles) {
             std::array<Vec3f, 3>& corners = silhouettes.cutouts.emplace_back();
             for (size_t k = 0; k < 3; ++k) corners[k] = relative(surface.positions[triangle[k]], silhouettes.center);

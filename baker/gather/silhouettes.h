@@ -53,17 +53,18 @@ struct Silhouettes {
     std::vector<Edge> edges;      ///< in the tree's order; flat ones, between faces of one plane, are left out
     std::vector<EdgeNode> nodes;  ///< empty without edges
     /// [surface][triangle], as Hit and TriangleRef count them: surfaces.size() + m is the panels of monitor m, empty
-    /// where it has a surface. Edge::no_plane for triangles without area and for alpha-masked ones.
+    /// where it has a surface. Edge::no_plane for triangles without area, alpha-masked ones, and those that do not
+    /// cast.
     std::vector<std::vector<uint32_t>> plane_of;
     std::vector<EdgeNode> cutout_nodes;         ///< tree over alpha-masked triangles: bounds only; no cones
     std::vector<std::array<Vec3f, 3>> cutouts;  ///< those triangles in that tree's order
 };
 
-/// All opaque surfaces' edges (blended and transmissive ones are opaque here, as for rays). Surfaces of different
-/// owners are not welded to each other. Faces are merged into one plane when they meet across an edge, their normals
-/// differ by less than 1e-6 and every vertex lies within rounding of the plane that stands for the group. An edge of
-/// three faces or more is one record for each of them. Monitors without a surface contribute their panels. Parallel;
-/// the result does not depend on the number of threads.
+/// All edges of opaque surfaces that cast (blended and transmissive ones are opaque here, as for rays). Surfaces of
+/// different owners are not welded to each other. Faces are merged into one plane when they meet across an edge, their
+/// normals differ by less than 1e-6 and every vertex lies within rounding of the plane that stands for the group. An
+/// edge of three faces or more is one record for each of them. Monitors without a surface contribute their panels.
+/// Parallel; the result does not depend on the number of threads.
 Silhouettes find_silhouettes(const Scene& scene, const RayScene& rays);
 
 /// The same over given edges, which keep their planes' numbers: for what a panel's plane cuts off (panel.h).

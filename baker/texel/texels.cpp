@@ -79,7 +79,7 @@ Candidates find_candidates(const Scene& scene, const Atlas& atlas, int page) {
     const Box map{0, atlas.width - 1, 0, atlas.height - 1};
     for (uint32_t s = 0; s < scene.surfaces.size(); ++s) {
         if (atlas.surfaces[s].page != page) continue;
-        for (uint32_t t = 0; t < scene.surfaces[s].triangles.size(); ++t) {
+        for (uint32_t t = 0; t < atlas.surfaces[s].uv.size(); ++t) {  // none where it does not receive
             const Corners corners = texel_corners(atlas, {s, t});
             const Box box = box_of(corners, map);
             const auto number = static_cast<uint32_t>(candidates.all.size());
@@ -167,7 +167,8 @@ Texels subdivided_row(const Texels& texels, const Numbers& row, const Atlas& fin
                     if (bits[before + k] >> (sub * step + x) & 1u)
                         result.triangles.push_back(texels.triangles_of(texel)[k]);
                 const auto count = static_cast<uint32_t>(result.triangles.size()) - first;
-                if (count > 0) result.texels.push_back({index + x, texel.chart, first, count, texel.free_pieces, texel.may_turn});
+                if (count > 0)
+                    result.texels.push_back({index + x, texel.chart, first, count, texel.free_pieces, texel.may_turn});
             }
         }
     }

@@ -12,7 +12,8 @@
 namespace surimi {
 
 /// The uv of one Surface's triangles, in their order. uv is what the file will hold: float, [0, 1], v down, origin at
-/// the upper left corner of the page. Multiply by the atlas' size for texels.
+/// the upper left corner of the page. Multiply by the atlas' size for texels. Both lists are empty for a surface that
+/// does not receive: it is nowhere on the map.
 struct SurfaceUv {
     std::vector<std::array<Vec2f, 3>> uv;  ///< of the triangle's corners
     std::vector<uint32_t> chart;           ///< index into Atlas::charts

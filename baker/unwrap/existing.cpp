@@ -59,6 +59,7 @@ void add_faulty(const Scene& scene, const std::string& what, const std::vector<T
 }
 
 bool is_missing(const Surface& surface) {
+    if (!surface.receives) return false;
     return surface.uv_sets.size() < 2 || surface.uv_sets[1].size() != surface.positions.size();
 }
 
@@ -78,6 +79,7 @@ void read_uv(const Scene& scene, ExistingUv& found) {
     for (uint32_t s = 0; s < scene.surfaces.size(); ++s) {
         const Surface& surface = scene.surfaces[s];
         SurfaceUv& read = found.atlas.surfaces.emplace_back();
+        if (!surface.receives) continue;
         for (uint32_t t = 0; t < surface.triangles.size(); ++t) {
             std::array<Vec2f, 3> uv{};
             bool is_good = true;
@@ -101,7 +103,7 @@ void read_uv(const Scene& scene, ExistingUv& found) {
 std::vector<uint32_t> number_charts(const Scene& scene, Atlas& atlas) {
     std::vector<size_t> first;  // triangle of each surface, all being numbered in one go
     size_t count = 0;
-    for (const Surface& surface : scene.surfaces) first.push_back(count), count += surface.triangles.size();
+    for (const SurfaceUv& surface : atlas.surfaces) first.push_back(count), count += surface.uv.size();
     std::vector<uint32_t> parent(count);
     std::iota(parent.begin(), parent.end(), 0u);
     const auto root = [&](size_t i) {
@@ -122,8 +124,8 @@ std::vector<uint32_t> number_charts(const Scene& scene, Atlas& atlas) {
     };
     std::vector<Numbered> of_root(count);
     std::vector<uint32_t> joined;
-    for (uint32_t s = 0; s < scene.surfaces.size(); ++s) {
-        for (size_t t = 0; t < scene.surfaces[s].triangles.size(); ++t) {
+    for (uint32_t s = 0; s < atlas.surfaces.size(); ++s) {
+        for (size_t t = 0; t < atlas.surfaces[s].uv.size(); ++t) {
             const uint32_t r = root(first[s] + t);
             if (of_root[r].surface != s) {
                 of_root[r] = {s, static_cast<uint32_t>(joined.size())};
@@ -154,7 +156,7 @@ bool set_size(const Scene& scene, const UnwrapSettings& settings, ExistingUv& fo
     std::vector<Areas> areas(atlas.charts.size());
     Areas all;
     for (size_t s = 0; s < scene.surfaces.size(); ++s)
-        for (uint32_t t = 0; t < scene.surfaces[s].triangles.size(); ++t) {
+        for (uint32_t t = 0; t < atlas.surfaces[s].uv.size(); ++t) {
             const Areas some = areas_of(scene.surfaces[s], atlas.surfaces[s], t);
             for (Areas* sum : {&all, &areas[atlas.surfaces[s].chart[t]]}) sum->space += some.space, sum->uv += some.uv;
         }
@@ -183,7 +185,7 @@ void find_collapsed(const Scene& scene, ExistingUv& found) {
     for (uint32_t s = 0; s < scene.surfaces.size(); ++s) {
         double lost = 0;
         std::vector<TriangleRef> some;
-        for (uint32_t t = 0; t < scene.surfaces[s].triangles.size(); ++t) {
+        for (uint32_t t = 0; t < found.atlas.surfaces[s].uv.size(); ++t) {
             const Areas areas = areas_of(scene.surfaces[s], found.atlas.surfaces[s], t);
             if (areas.uv > 0) continue;
             lost += areas.space;

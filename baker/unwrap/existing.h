@@ -23,13 +23,13 @@ struct ExistingUv {
     std::vector<uint32_t> shared;       ///< texels (y * width + x) that bilinear reads on two charts touch, sorted
 };
 
-/// Judges TEXCOORD_1 of every surface. At fault are: values that are missing, not finite or outside [0, 1]; triangles
-/// that deserve a texel and have no area on the map; triangles that overlap, also those of two surfaces; charts that
-/// share a texel of their bilinear footprints at the map's size (as Unity judges lightmap UVs), with the next doubled
-/// size at which they do not. Charts are triangles joined by edges whose ends agree in place and uv, also across
-/// surfaces. A gap narrower than the gutter asked for, or none left on the last mip level asked
-/// for, is a warning in `atlas`. With a density, the map becomes the
-/// smallest square multiple of 4 at which the scene has it on average. Near-linear in triangles and texels.
+/// Judges TEXCOORD_1 of every surface that receives. At fault are: values that are missing, not finite or outside [0,
+/// 1]; triangles that deserve a texel and have no area on the map; triangles that overlap, also those of two surfaces;
+/// charts that share a texel of their bilinear footprints at the map's size (as Unity judges lightmap UVs), with the
+/// next doubled size at which they do not. Charts are triangles joined by edges whose ends agree in place and uv, also
+/// across surfaces. A gap narrower than the gutter asked for, or none left on the last mip level asked for, is a
+/// warning in `atlas`. With a density, the map becomes the smallest square multiple of 4 at which the scene has it on
+/// average. Near-linear in triangles and texels.
 ExistingUv judge_existing(const Scene& scene, const UnwrapSettings& settings);
 
 /// The existing UVs where `settings.uv` asks for them. Nothing for UvSource::unwrap, and nothing for automatic when

@@ -64,7 +64,7 @@ struct Piece {
 std::vector<Piece> pieces_of(const Scene& scene, const Atlas& atlas, UnwrapNumbers& numbers) {
     std::vector<Piece> pieces;
     for (uint32_t s = 0; s < scene.surfaces.size(); ++s)
-        for (uint32_t t = 0; t < scene.surfaces[s].triangles.size(); ++t) {
+        for (uint32_t t = 0; t < atlas.surfaces[s].uv.size(); ++t) {
             const double space = area_in_space(scene.surfaces[s], t);
             numbers.area += space;
             ++numbers.triangles;
@@ -83,7 +83,7 @@ void count_charts(const Scene& scene, const Atlas& atlas, UnwrapNumbers& numbers
     std::vector<size_t> triangles(atlas.charts.size(), 0);
     std::vector<double> winding(atlas.charts.size(), 0);
     for (uint32_t s = 0; s < scene.surfaces.size(); ++s)
-        for (uint32_t t = 0; t < scene.surfaces[s].triangles.size(); ++t) {
+        for (uint32_t t = 0; t < atlas.surfaces[s].uv.size(); ++t) {
             if (is_needle(scene.surfaces[s], t)) continue;
             const uint32_t chart = atlas.surfaces[s].chart[t];
             ++triangles[chart];

@@ -21,7 +21,7 @@ struct Stretch {
 Stretch stretch_of(const Scene& scene, const Atlas& atlas, uint32_t surface, uint32_t triangle);
 
 struct UnwrapNumbers {
-    size_t triangles = 0;
+    size_t triangles = 0;               ///< of surfaces that are on the map; all that follows is about those alone
     size_t degenerate_triangles = 0;    ///< no area in space to speak of; left out of all that follows
     size_t collapsed_triangles = 0;     ///< area in space and none on the map; left out of stretch and density
     size_t charts = 0;                  ///< with at least one triangle that is not degenerate

@@ -7,25 +7,10 @@
 
 #include "runtime/base/error.h"
 #include "runtime/scene/node_names.h"
+#include "runtime/scene/node_order.h"
 
 namespace surimi {
 namespace {
-
-std::vector<size_t> parents_first(const Scene& scene) {
-    std::vector<std::vector<size_t>> children(scene.nodes.size());
-    std::vector<size_t> order;
-    for (size_t n = 0; n < scene.nodes.size(); ++n) {
-        if (scene.nodes[n].parent < 0)
-            order.push_back(n);
-        else
-            children[static_cast<size_t>(scene.nodes[n].parent)].push_back(n);
-    }
-    for (size_t i = 0; i < order.size(); ++i) {
-        const std::vector<size_t>& below = children[order[i]];
-        order.insert(order.end(), below.begin(), below.end());
-    }
-    return order;
-}
 
 /// Which surfaces a wish means by its node.
 std::vector<bool> surfaces_below(const Scene& scene, const std::string& node, const std::vector<size_t>& order) {

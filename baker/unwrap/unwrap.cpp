@@ -31,6 +31,11 @@ struct Work {
 
 void check_settings(const Scene& scene, const UnwrapSettings& settings) {
     if (triangle_count(scene) == 0) throw Error(ErrorKind::nothing_to_bake, "the scene has no triangle to unwrap");
+    if (std::ranges::none_of(scene.surfaces, [](const Surface& surface) { return surface.receives; }))
+        throw Error(ErrorKind::nothing_to_bake,
+                    "every surface of the scene is excluded or does not receive, so nothing is left to bake; take one "
+                    "back with exclude = false or receives = true in its node's extras or an [[object]] of the "
+                    "settings file");
     if (settings.gutter < 1) throw Error(ErrorKind::usage, "the gutter has to be at least 1 texel");
     if (!(settings.stretch > 1)) throw Error(ErrorKind::usage, "the stretch allowed has to be above 1");
     if (settings.atlases < 1 || settings.atlases > 64)
@@ -64,10 +69,13 @@ std::vector<double> expected_texels(const std::vector<FaceGraph>& graphs, const 
 void cut_scene(const Scene& scene, const UnwrapSettings& settings, const Progress& progress, Work& work) {
     work.graphs.resize(scene.surfaces.size());
     std::vector<std::vector<FlatChart>> charts(scene.surfaces.size());
-    parallel_for(scene.surfaces.size(), 1, [&](size_t s) { work.graphs[s] = build_face_graph(scene.surfaces[s]); });
+    parallel_for(scene.surfaces.size(), 1, [&](size_t s) {
+        if (scene.surfaces[s].receives) work.graphs[s] = build_face_graph(scene.surfaces[s]);
+    });
     const std::vector<double> texels = expected_texels(work.graphs, settings);
     parallel_stage("charts", scene.surfaces.size(), 1, progress, [&](size_t begin, size_t end) {
         for (size_t s = begin; s < end; ++s) {
+            if (!scene.surfaces[s].receives) continue;
             charts[s] = cut_into_charts(work.graphs[s], cut_settings(settings, texels[s]), progress);
             for (FlatChart& chart : charts[s]) chart.surface = static_cast<uint32_t>(s);
         }
@@ -143,6 +151,7 @@ Atlas to_atlas(const Scene& scene, const Work& work, const Layout& layout, const
     atlas.texels_per_metre = layout.texels_per_metre;
     atlas.surfaces.resize(scene.surfaces.size());
     for (size_t s = 0; s < scene.surfaces.size(); ++s) {
+        if (!scene.surfaces[s].receives) continue;
         atlas.surfaces[s].uv.resize(scene.surfaces[s].triangles.size());
         atlas.surfaces[s].chart.resize(scene.surfaces[s].triangles.size());
         atlas.surfaces[s].page = work.pages.of_surface[s];

@@ -35,12 +35,13 @@ struct UnwrapSettings {
     std::vector<TexelScale> texel_scales;  ///< densities that the user wants, besides extras.texel_scale
 };
 
-/// Cuts every surface into charts without flips or overlaps, at one density, and packs them into exactly the size
-/// asked for, or into several pages of that size. Deterministic. Adds nothing to the scene and drops nothing with area.
-/// The density follows weigh_charts and texel_scales; existing UVs keep their own. Throws Error(nothing_to_bake) when
-/// the scene has no triangle, Error(usage) when the charts cannot fit even at the lowest density (it names the smallest
-/// size that can) or a texel scale names nothing, Error(scene) when existing UVs are asked for and unfit (see
-/// judge_existing): the message names surface and triangles.
+/// Cuts every surface that receives into charts without flips or overlaps, at one density, and packs them into exactly
+/// the size asked for, or into several pages of that size. Deterministic. Adds nothing to the scene and drops nothing
+/// with area. The density follows weigh_charts and texel_scales; existing UVs keep their own. Throws
+/// Error(nothing_to_bake) when the scene has no triangle or no surface that receives, Error(usage) when the charts
+/// cannot fit even at the lowest density (it names the smallest size that can) or a texel scale names nothing,
+/// Error(scene) when existing UVs are asked for and unfit (see judge_existing): the message names surface and
+/// triangles.
 Atlas unwrap(const Scene& scene, const UnwrapSettings& settings, const Progress& progress);
 
 }  // namespace surimi

@@ -48,7 +48,7 @@ std::vector<EdgeUse> find_edge_uses(const Scene& scene, const std::vector<Surfac
     size_t first = 0;
     for (uint32_t s = 0; s < scene.surfaces.size(); ++s) {
         const Surface& surface = scene.surfaces[s];
-        for (uint32_t t = 0; t < surface.triangles.size(); ++t) {
+        for (uint32_t t = 0; t < surfaces[s].uv.size(); ++t) {
             const auto& uv = surfaces[s].uv[t];
             for (uint32_t k = 0; k < 3; ++k) {
                 const uint32_t next = (k + 1) % 3;

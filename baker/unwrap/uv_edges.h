@@ -22,8 +22,8 @@ struct EdgeUse {
     uint32_t corner = 0;  ///< the edge runs from this corner to the next
 };
 
-/// All sides of all edges: those of one edge (ends at identical places, -0.0 is 0.0, whatever the surface) side by
-/// side, those of nearly equal uv next to each other. Edges of no length are left out. n log n.
+/// All sides of all edges on the map: those of one edge (ends at identical places, -0.0 is 0.0, whatever the surface)
+/// side by side, those of nearly equal uv next to each other. Edges of no length are left out. n log n.
 std::vector<EdgeUse> find_edge_uses(const Scene& scene, const std::vector<SurfaceUv>& surfaces);
 
 /// Calls `visit` for the sides of each edge.

@@ -65,7 +65,8 @@ Json rectangle_of(const Atlas& atlas, const std::vector<size_t>& surfaces) {
 Json nodes_section(const Scene& scene, const Atlas& atlas) {
     std::map<std::pair<int, int>, std::vector<size_t>> surfaces_by_place;
     for (size_t s = 0; s < scene.surfaces.size(); ++s)
-        surfaces_by_place[{scene.surfaces[s].node, atlas.surfaces[s].page}].push_back(s);
+        if (!atlas.surfaces[s].uv.empty())
+            surfaces_by_place[{scene.surfaces[s].node, atlas.surfaces[s].page}].push_back(s);
     Json section = Json::array();
     for (const auto& [place, surfaces] : surfaces_by_place) {
         const auto& [node, page] = place;

@@ -60,6 +60,23 @@ Vec2 monitor_size(const json& source, const std::string& place, Scene& scene) {
     return Vec2(0);
 }
 
+/// A yes or no from extras; Blender writes 0 and 1.
+std::optional<bool> read_truth(const json& extras, const char* key, const std::string& place, Scene& scene) {
+    const auto found = extras.find(key);
+    if (found == extras.end() || found->is_null()) return std::nullopt;
+    if (*found == true || *found == 1) return true;
+    if (*found == false || *found == 0) return false;
+    add_note(scene, "extras." + std::string(key) + " is none of true, false, 1, 0; ignored", place);
+    return std::nullopt;
+}
+
+RoleMarks read_roles(const json& source, const std::string& place, Scene& scene) {
+    const auto extras = source.find("extras");
+    if (extras == source.end() || !extras->is_object()) return {};
+    return {read_truth(*extras, "casts", place, scene), read_truth(*extras, "receives", place, scene),
+            read_truth(*extras, "two_sided", place, scene), read_truth(*extras, "exclude", place, scene)};
+}
+
 double number_or(const json& object, const char* key, double fallback) {
     const auto found = object.find(key);
     return found != object.end() && found->is_number() ? found->get<double>() : fallback;
@@ -116,6 +133,7 @@ void read_nodes(const GltfDocument& document, Scene& scene) {
         node.is_two_sided_monitor = mark.is_two_sided;
         if (mark.is_unclear) add_note(scene, "extras.monitor is none of R, G, B, 0, 1, 2, true; taken as true", place);
         node.texel_scale = read_texel_scale(source, place, scene);
+        node.roles = read_roles(source, place, scene);
         node.monitor_size = monitor_size(source, place, scene);
         read_area_light(document.json, source, place, scene, node);
         if (source.contains("/extensions/EXT_mesh_gpu_instancing"_json_pointer))
@@ -220,12 +238,16 @@ size_t triangle_count(const Scene& scene) {
 
 Bounds bounds(const Scene& scene) {
     Bounds result;
-    for (const Surface& surface : scene.surfaces)
+    const bool is_all_excluded =
+        std::ranges::all_of(scene.surfaces, [](const Surface& surface) { return surface.is_excluded; });
+    for (const Surface& surface : scene.surfaces) {
+        if (surface.is_excluded && !is_all_excluded) continue;
         for (const std::array<uint32_t, 3>& corners : surface.triangles)
             for (const uint32_t v : corners) {
                 result.low = glm::min(result.low, surface.positions[v]);
                 result.high = glm::max(result.high, surface.positions[v]);
             }
+    }
     return result;
 }
 

@@ -35,8 +35,10 @@ CandidateFinder::CandidateFinder(Scene& scene)
       is_claimed_(scene.surfaces.size(), false) {
     for (size_t n = 0; n < scene.nodes.size(); ++n)
         if (scene.nodes[n].parent >= 0) children_[static_cast<size_t>(scene.nodes[n].parent)].push_back(n);
-    for (size_t s = 0; s < scene.surfaces.size(); ++s)
+    for (size_t s = 0; s < scene.surfaces.size(); ++s) {
         surfaces_[static_cast<size_t>(scene.surfaces[s].node)].push_back(s);
+        is_barred_.push_back(scene.surfaces[s].is_excluded);
+    }
 }
 
 const Material* CandidateFinder::material_of(size_t surface) const {
@@ -49,10 +51,20 @@ bool CandidateFinder::is_emissive(size_t surface) const {
     return material != nullptr && luminance(material->emissive) > 0;
 }
 
+/// For a node that the user names: its own excluded surfaces, or all below it where nothing else is.
+void CandidateFinder::release_excluded(size_t node) {
+    std::vector<size_t> nodes{node};
+    for (size_t i = 0; i < nodes.size(); ++i) {
+        for (const size_t s : surfaces_[nodes[i]]) is_barred_[s] = false;
+        if (i == 0 && !free_surfaces_below(node).empty()) return;
+        nodes.insert(nodes.end(), children_[nodes[i]].begin(), children_[nodes[i]].end());
+    }
+}
+
 std::vector<size_t> CandidateFinder::free_surfaces(size_t node) const {
     std::vector<size_t> free;
     std::copy_if(surfaces_[node].begin(), surfaces_[node].end(), std::back_inserter(free),
-                 [&](size_t s) { return !is_claimed_[s]; });
+                 [&](size_t s) { return !is_claimed_[s] && !is_barred_[s]; });
     return free;
 }
 
@@ -163,6 +175,8 @@ std::vector<MonitorCandidate> CandidateFinder::selected(const std::vector<Monito
     std::vector<MonitorCandidate> all;
     for (const MonitorSelector& selector : selectors) {
         const std::vector<size_t> nodes = matching_nodes(scene_, selector.node);
+        for (const size_t n : nodes)
+            if (scene_.nodes[n].is_excluded) release_excluded(n);
         std::vector<MonitorCandidate> found = from_nodes(nodes, rule);
         for (size_t s = 0; s < scene_.surfaces.size() && nodes.empty(); ++s) {
             if (is_claimed_[s] || !matches_glob(selector.node, scene_.surfaces[s].name)) continue;
@@ -250,7 +264,7 @@ std::vector<MonitorCandidate> CandidateFinder::area_lights() {
     std::vector<MonitorCandidate> candidates;
     for (size_t n = 0; n < scene_.nodes.size(); ++n) {
         const Node& node = scene_.nodes[n];
-        if (!node.is_in_scene || !(node.area_light_size.x > 0)) continue;
+        if (!node.is_in_scene || node.is_excluded || !(node.area_light_size.x > 0)) continue;
         const Polygon polygon = light_rectangle(node);
         if (!(area(polygon) > 0) || !std::isfinite(area(polygon))) continue;
         MonitorCandidate candidate = from_surfaces(n, {}, "EXT_lights_area on node");
@@ -269,7 +283,7 @@ std::vector<MonitorCandidate> CandidateFinder::marked() {
     for (size_t n = 0; n < scene_.nodes.size(); ++n) {
         const Node& node = scene_.nodes[n];
         const bool is_sized = node.monitor_size.x > 0 && node.mesh < 0;
-        if (node.is_in_scene && (node.is_marked_monitor || is_sized)) nodes.push_back(n);
+        if (node.is_in_scene && !node.is_excluded && (node.is_marked_monitor || is_sized)) nodes.push_back(n);
     }
     std::vector<MonitorCandidate> candidates = from_nodes(nodes, "extras.monitor on node");
     std::vector<MonitorCandidate> others =
@@ -281,7 +295,8 @@ std::vector<MonitorCandidate> CandidateFinder::marked() {
 std::vector<MonitorCandidate> CandidateFinder::named() {
     std::vector<size_t> nodes;
     for (size_t n = 0; n < scene_.nodes.size(); ++n)
-        if (scene_.nodes[n].is_in_scene && is_monitor_name(scene_.nodes[n].name)) nodes.push_back(n);
+        if (scene_.nodes[n].is_in_scene && !scene_.nodes[n].is_excluded && is_monitor_name(scene_.nodes[n].name))
+            nodes.push_back(n);
     std::vector<MonitorCandidate> candidates = from_nodes(nodes, "node name");
     if (!candidates.empty()) return candidates;
     return from_materials([](const Material& m) { return is_monitor_name(m.name); }, "material name");
@@ -290,7 +305,7 @@ std::vector<MonitorCandidate> CandidateFinder::named() {
 std::vector<MonitorCandidate> CandidateFinder::emissive() {
     std::vector<MonitorCandidate> candidates;
     for (size_t s = 0; s < scene_.surfaces.size(); ++s) {
-        if (!is_emissive(s)) continue;
+        if (is_barred_[s] || !is_emissive(s)) continue;
         const Surface& surface = scene_.surfaces[s];
         const std::vector<Triangle> triangles = triangles_of(scene_, {s});
         const std::optional<Polygon> polygon = one_polygon(triangles);

@@ -21,7 +21,8 @@ struct MonitorCandidate {
 /// Lumen that leave one side: luminance * area * pi.
 double flux(const MonitorCandidate& candidate);
 
-/// Collects the candidates of one rule. A surface belongs to one candidate at most: the first that claims it.
+/// Collects the candidates of one rule. A surface belongs to one candidate at most: the first that claims it. Excluded
+/// surfaces and nodes (roles.h) are candidates only where the user names them.
 class CandidateFinder {
   public:
     explicit CandidateFinder(Scene& scene);
@@ -42,6 +43,7 @@ class CandidateFinder {
     template <class Predicate>
     std::vector<MonitorCandidate> from_materials(const Predicate& is_wanted, const std::string& reason);
     MonitorCandidate from_surfaces(size_t node, std::vector<size_t> surfaces, const std::string& reason);
+    void release_excluded(size_t node);
     std::vector<size_t> free_surfaces(size_t node) const;
     std::vector<size_t> free_surfaces_below(size_t node) const;
     void claim_coinciding_quads(size_t light_node, MonitorCandidate& candidate);
@@ -52,6 +54,7 @@ class CandidateFinder {
     std::vector<std::vector<size_t>> children_;
     std::vector<std::vector<size_t>> surfaces_;  ///< of each node
     std::vector<bool> is_claimed_;
+    std::vector<bool> is_barred_;  ///< excluded and not named
 };
 
 }  // namespace surimi

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -60,6 +61,12 @@ struct Material {
 inline constexpr double least_texel_scale = 0.001;
 inline constexpr double largest_texel_scale = 1000;
 
+/// What is said of the roles of surfaces; empty: nothing.
+struct RoleMarks {
+    std::optional<bool> casts, receives, two_sided;  ///< see Surface
+    std::optional<bool> exclude;                     ///< neither casts nor receives, and is no monitor unless named
+};
+
 struct Node {
     std::string name;  ///< never empty: unnamed nodes are called node_<index>
     int parent = -1;
@@ -69,7 +76,9 @@ struct Node {
     bool is_marked_monitor = false;  ///< extras.monitor
     int monitor_channel = -1;
     bool is_two_sided_monitor = false;
-    double texel_scale = 1;  ///< extras.texel_scale, for this node's and its descendants' meshes
+    double texel_scale = 1;    ///< extras.texel_scale, for this node's and its descendants' meshes
+    RoleMarks roles;           ///< extras.casts and so on, for this node's and its descendants' meshes; the nearest win
+    bool is_excluded = false;  ///< decided by apply_roles: is no monitor unless the user names it
     Vec2 monitor_size{
         0};  ///< extras.monitor_size: an empty node that is a monitor of this width and height, facing its +z
     Vec2 area_light_size{0};  ///< EXT_lights_area rectangle: width and height before the node's scale, facing its -z
@@ -89,6 +98,8 @@ struct Surface {
     bool casts = true;            ///< it stands in the way of light
     bool receives = true;         ///< it gets texels of the map
     bool is_two_sided = false;    ///< light on its back counts where none can fall on its front
+    bool is_excluded = false;     ///< nothing of it is baked: neither casts nor receives, and the user said so
+    bool is_drawn = true;         ///< false: excluded as a collision mesh, which engines do not show
     std::vector<Vec3> positions;  ///< metres; one for each vertex of the primitive, in its order
     std::vector<Vec3> normals;  ///< unit; same length. Flat ones where the file has none: then vertices are not shared
     std::vector<std::vector<Vec2>> uv_sets;          ///< TEXCOORD_0, 1, ...; each of the length of positions
@@ -133,7 +144,7 @@ struct Bounds {
     Vec3 low{INFINITY};
     Vec3 high{-INFINITY};
 };
-/// Bounds of all surfaces, metres.
+/// Bounds of all surfaces but the excluded ones, if there are others; metres.
 Bounds bounds(const Scene& scene);
 
 }  // namespace surimi

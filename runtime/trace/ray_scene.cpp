@@ -17,7 +17,9 @@ namespace {
 
 constexpr unsigned solid_mask = 1u << 3;  // bits 0 to 2 belong to the monitors
 constexpr unsigned cutout_mask = 1u << 4;
-constexpr unsigned everything = 0x1fu;
+constexpr unsigned shown_mask = 1u << 5;  // what only pictures show
+constexpr unsigned casters = 0x1fu;
+constexpr unsigned everything = casters | shown_mask;
 
 }  // namespace
 
@@ -87,7 +89,8 @@ void RayScene::State::attach(const std::vector<Vec3>& positions, const std::vect
 void RayScene::State::attach_surface(uint32_t index) {
     const Surface& surface = scene.surfaces[index];
     const unsigned ordinary = is_cutout(scene, surface) ? cutout_mask : solid_mask;
-    const unsigned mask = surface.monitor < 0 ? ordinary : 1u << static_cast<unsigned>(surface.monitor);
+    const unsigned own_mask = surface.monitor < 0 ? ordinary : 1u << static_cast<unsigned>(surface.monitor);
+    const unsigned mask = surface.casts ? own_mask : shown_mask;
     if (!surface.triangles.empty()) attach(surface.positions, surface.triangles, mask, index);
 }
 
@@ -105,7 +108,7 @@ void RayScene::State::attach_panels(size_t monitor) {
                static_cast<unsigned>(scene.surfaces.size() + monitor));
 }
 
-RayScene::RayScene(const Scene& scene) : state_(std::make_unique<State>(scene)) {
+RayScene::RayScene(const Scene& scene, Attach attach) : state_(std::make_unique<State>(scene)) {
     const Bounds box = bounds(scene);
     state_->center = is_finite(box.low) && is_finite(box.high) ? 0.5 * (box.low + box.high) : Vec3(0);
     state_->cutouts.resize(scene.surfaces.size());
@@ -116,7 +119,9 @@ RayScene::RayScene(const Scene& scene) : state_(std::make_unique<State>(scene)) 
     // Without ROBUST a ray at a shared vertex leaks in 36 % of cases; spatial splits (HIGH) gain nothing with it.
     rtcSetSceneFlags(state_->handle, RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(state_->handle, RTC_BUILD_QUALITY_MEDIUM);
-    for (uint32_t i = 0; i < scene.surfaces.size(); ++i) state_->attach_surface(i);
+    for (uint32_t i = 0; i < scene.surfaces.size(); ++i)
+        if (scene.surfaces[i].casts || (attach == Attach::everything && scene.surfaces[i].is_drawn))
+            state_->attach_surface(i);
     for (size_t m = 0; m < scene.monitors.size(); ++m)
         if (std::none_of(scene.surfaces.begin(), scene.surfaces.end(),
                          [&](const Surface& s) { return s.monitor == static_cast<int>(m); }))
@@ -168,7 +173,7 @@ bool RayScene::is_occluded(const Vec3& origin, const Vec3& target, size_t monito
 
 bool RayScene::is_occluded_until(double end, const Vec3& origin, const Vec3& target, size_t monitor) const {
     RTCRay ray;
-    set_ray(ray, origin, target - origin, end, everything & ~(1u << monitor));
+    set_ray(ray, origin, target - origin, end, casters & ~(1u << monitor));
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     rtcOccluded1(state_->handle, &context, &ray);
@@ -193,7 +198,7 @@ uint32_t RayScene::occluded(const RayPacket& packet, size_t monitor) const {
         valid[i] = i < packet.size ? -1 : 0;
         rays.tnear[i] = 0;
         rays.time[i] = 0;
-        rays.mask[i] = everything & ~(1u << monitor);
+        rays.mask[i] = casters & ~(1u << monitor);
         rays.id[i] = 0;
         rays.flags[i] = 0;
     }
@@ -208,7 +213,7 @@ uint32_t RayScene::occluded(const RayPacket& packet, size_t monitor) const {
 std::optional<TriangleRef> RayScene::closest_occluder(const Vec3& origin, const Vec3& target, double end,
                                                       size_t monitor) const {
     RTCRayHit query;
-    set_ray(query.ray, origin, target - origin, end, everything & ~(1u << monitor));
+    set_ray(query.ray, origin, target - origin, end, casters & ~(1u << monitor));
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     RTCIntersectContext context;

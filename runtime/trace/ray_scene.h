@@ -49,10 +49,17 @@ struct Way {
     double distance = INFINITY;  ///< to that face, in lengths of the ray's direction
 };
 
+/// Which surfaces a RayScene holds.
+enum class Attach {
+    casters,    ///< those that stand in the way of light
+    everything  ///< for pictures: also those that do not, unless engines do not draw them; light passes them all the
+                ///< same
+};
+
 /// Owns the acceleration structure of one scene; the scene must outlive it. Calls are thread-safe.
 class RayScene {
   public:
-    explicit RayScene(const Scene& scene);
+    explicit RayScene(const Scene& scene, Attach attach = Attach::casters);
     ~RayScene();
     RayScene(const RayScene&) = delete;
     RayScene& operator=(const RayScene&) = delete;
@@ -66,9 +73,9 @@ class RayScene {
     /// What places are relative to before they are rounded to float: the middle of the scene's bounds.
     const Vec3& center() const;
 
-    /// Is anything between `origin` (see ray_origin) and `target`, a point on monitor `monitor`? Surfaces of that
-    /// monitor do not count, nor does what lies within 1e-4 of the distance before the target. Alpha-masked holes let
-    /// light through; blended and transmissive materials block it.
+    /// Is anything that casts between `origin` (see ray_origin) and `target`, a point on monitor `monitor`? Surfaces of
+    /// that monitor do not count, nor does what lies within 1e-4 of the distance before the target. Alpha-masked holes
+    /// let light through; blended and transmissive materials block it.
     bool is_occluded(const Vec3& origin, const Vec3& target, size_t monitor) const;
 
     /// The same for a ray that ends at `end` times the way, with places relative to center().
@@ -83,17 +90,17 @@ class RayScene {
     std::optional<TriangleRef> closest_occluder(const Vec3& origin, const Vec3& target, double end,
                                                 size_t monitor) const;
 
-    /// All triangles that come within `radius` of `place` (relative to center()), and some more, sorted; replaces what
-    /// is in `found`.
+    /// All triangles held (see Attach) that come within `radius` of `place` (relative to center()), and some more,
+    /// sorted; replaces what is in `found`.
     void find_triangles_near(const Vec3& place, double radius, std::vector<TriangleRef>& found) const;
 
     /// The corners of a triangle as rays meet it, monitors' panels among them, relative to center().
     std::array<Vec3, 3> corners_of(const TriangleRef& triangle) const;
 
-    /// Follows a ray through everything but monitors and alpha-masked surfaces.
+    /// Follows a ray through everything that casts but monitors and alpha-masked surfaces.
     Way follow(const Vec3& origin, const Vec3& direction) const;
 
-    /// Nearest surface along a ray; alpha-masked holes are not hit.
+    /// Nearest surface along a ray, of all that are held (see Attach); alpha-masked holes are not hit.
     std::optional<Hit> closest_hit(const Vec3& origin, const Vec3& direction) const;
 
   private:

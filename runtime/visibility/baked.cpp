@@ -43,7 +43,9 @@ std::vector<VisibilityMap> carried_pages(const Scene& scene) {
 }
 
 const VisibilityMap* map_at(const Scene& scene, const std::vector<VisibilityMap>& pages, const SurfacePoint& at) {
-    const auto page = static_cast<size_t>(material_of(scene, scene.surfaces[at.triangle.surface]).visibility_page);
+    const Surface& surface = scene.surfaces[at.triangle.surface];
+    if (!surface.receives) return nullptr;
+    const auto page = static_cast<size_t>(material_of(scene, surface).visibility_page);
     return page < pages.size() && !pages[page].visibility.empty() ? &pages[page] : nullptr;
 }
 

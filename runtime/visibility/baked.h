@@ -19,7 +19,7 @@ size_t page_count(const Scene& scene);
 /// empty map. Throws Error(scene) when one could not be decoded.
 std::vector<VisibilityMap> carried_pages(const Scene& scene);
 
-/// The map of the page that a point lies on; null where there is none.
+/// The map of the page that a point lies on; null where there is none, and on surfaces that do not receive.
 const VisibilityMap* map_at(const Scene& scene, const std::vector<VisibilityMap>& pages, const SurfacePoint& at);
 
 /// V of the three channels at a point; 1 without a map or without lightmap coordinates.

@@ -78,6 +78,18 @@ printf '[[texel_scale]]\nscale = 2\n' >"$work/bad.toml"
 expect 2 'needs "node" or "material"' "$surimi" bake "$theater" --config "$work/bad.toml"
 printf '[[texel_scale]]\nnode = "*"\nscale = 0\n' >"$work/bad.toml"
 expect 2 "bad.toml:3" "$surimi" bake "$theater" --config "$work/bad.toml"
+printf '[[object]]\nnode = "Flor*"\ncasts = false\n' >"$work/bad.toml"
+expect 2 'object "Flor*"' "$surimi" bake "$theater" --config "$work/bad.toml"
+printf '[[object]]\nnode = "*"\ncast = false\n' >"$work/bad.toml"
+expect 2 'did you mean "casts"' "$surimi" bake "$theater" --config "$work/bad.toml"
+printf '[[object]]\ncasts = false\n' >"$work/bad.toml"
+expect 2 'needs "node"' "$surimi" bake "$theater" --config "$work/bad.toml"
+printf '[[object]]\nnode = "*"\n' >"$work/bad.toml"
+expect 2 'needs one of casts' "$surimi" bake "$theater" --config "$work/bad.toml"
+printf '[[object]]\nnode = "*"\ncasts = "no"\n' >"$work/bad.toml"
+expect 2 "bad.toml:3" "$surimi" bake "$theater" --config "$work/bad.toml"
+expect 2 'did you mean "clear"' "$surimi" bake "$theater" --glass cleer
+expect 2 "glass must be" env SURIMI_GLASS=milk "$surimi" inspect "$theater"
 expect 2 "no camera is called" "$surimi" preview "$theater" -o "$work/x.png" --camera Nowhere
 expect 2 "must be a .png or .exr" "$surimi" preview "$theater" -o "$work/x.bmp"
 
@@ -183,6 +195,32 @@ for setting in UV=existing MIPS=2 ATLASES=3 STRETCH=2.5 UV_QUALITY=draft; do
 done
 expect 0 'mips = 4 ' env SURIMI_MIPS=2 "$surimi" unwrap "$theater" --config "$work/uv.toml" --mips 4 --print-config
 
+# Casters and receivers: settings that can be read back, what is announced, nothing left
+printf 'glass = "clear"\n[[object]]\nnode = "Sofa*"\ncasts = false\n[[object]]\nnode = "Rug"\nexclude = true\n' >"$work/roles.toml"
+"$surimi" bake "$theater" --config "$work/roles.toml" --print-config >"$work/effective.toml"
+for line in 'glass = "clear"' 'node = "Sofa*"' 'casts = false' 'exclude = true'; do
+    check grep -qF "$line" "$work/effective.toml"
+done
+check diff <("$surimi" bake "$theater" --config "$work/effective.toml" --print-config) "$work/effective.toml"
+expect 0 'glass = "block"' "$surimi" bake "$theater" --config "$work/roles.toml" --glass block --print-config
+expect 0 'glass = "clear"' env SURIMI_GLASS=clear "$surimi" bake "$theater" --print-config
+expect 0 "block light like walls" "$surimi" inspect "$theater"
+expect 0 "casts no shadow (glass)" "$surimi" inspect "$theater" --glass clear
+printf '[[object]]\nnode = "*"\nreceives = false\n' >"$work/roles.toml"
+expect 4 "nothing is left to bake" "$surimi" bake "$theater" --config "$work/roles.toml" -o "$work/roles"
+printf '[[object]]\nnode = "mesh*/1?"\nexclude = true\n' >"$work/roles.toml"
+"$surimi" inspect "$theater" --config "$work/roles.toml" --json | node -e '
+    const { roles } = JSON.parse(require("fs").readFileSync(0));
+    process.exit(roles.length > 5 && roles.every((role) => role.excluded && role.why.includes("[[object]]")) ? 0 : 1)' ||
+    fail "roles of inspect --json"
+expect 0 "left out of the bake by [[object]]" "$surimi" bake "$theater" --config "$work/roles.toml" --size 128 --quality draft -o "$work/roles"
+check node "$here/validate_glb.mjs" "$theater" "$work/roles/home-theater.baked.glb"
+node -e '
+    const { nodes, settings } = JSON.parse(require("fs").readFileSync(process.argv[1]));
+    const surfaces = nodes.flatMap((node) => node.surfaces);
+    process.exit(surfaces.length > 5 && !surfaces.some((name) => /\/1.$/.test(name)) && settings.object[0].exclude &&
+        settings.glass === "block" ? 0 : 1)' "$work/roles/home-theater.visibility.json" || fail "roles in the manifest"
+checks=$((checks + 2))
 # A monitor that the configuration describes
 printf '[[monitor]]\nname = "Wall"\nchannel = "G"\ncenter = [0, 1.5, 0]\nhalf_u = [0.5, 0, 0]\nhalf_v = [0, 0.3, 0]\n' >"$work/wall.toml"
 expect 0 "Wall" "$surimi" bake "$theater" --config "$work/wall.toml" --size 128 --quality draft -o "$work/wall"

@@ -146,9 +146,10 @@ Obstructed obstructed(const Scene& scene, const RayScene& rays, size_t monitor) 
     const auto seen = [&](const Vec3& p) { return Vec3(Vec3f(p - result.center)); };
     std::vector<bool> has_surface(scene.monitors.size(), false);
     for (const Surface& surface : scene.surfaces) {
+        if (surface.monitor >= 0) has_surface[static_cast<size_t>(surface.monitor)] = true;
+        if (!surface.casts) continue;
         if (material_of(scene, surface).alpha_mode == AlphaMode::mask)
             throw std::invalid_argument("alpha-masked surfaces cannot be subtracted: " + surface.name);
-        if (surface.monitor >= 0) has_surface[static_cast<size_t>(surface.monitor)] = true;
         if (surface.monitor == static_cast<int>(monitor)) continue;
         for (const auto& [a, b, c] : surface.triangles)
             result.triangles.push_back(
