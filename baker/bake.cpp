@@ -106,7 +106,7 @@ Bake bake(const Scene& scene, const BakeSettings& settings, const Progress& prog
             grow_gutters(preparation.texels[p], channels[p], all_rings);
             store(result.pages[p], monitor, std::move(channels[p]));
         }
-        stopwatch.finish("gutters " + monitor.name);
+        stopwatch.finish("fill " + monitor.name);
         if (settings.audit == 0) continue;
         evidence.audits = audit_pages({scene, preparation, result.pages}, m, settings, progress);
         stopwatch.finish("audit of " + monitor.name);

@@ -38,8 +38,13 @@ struct Calibration {
 Calibration calibrate(const Scene& scene, const Preparation& preparation, size_t monitor,
                       const GatherSettings& settings, const Progress& progress);
 
-/// Seconds of wall time to make visibility of estimates and fill what has none, all pages, one monitor.
-double calibrate_fill(const Scene& scene, const Preparation& preparation);
+/// Seconds of wall time of what comes after light, all pages, one monitor.
+struct PostSeconds {
+    double fill = 0;   ///< visibility of estimates, values for what has none, gutters
+    double seams = 0;  ///< stitching them
+    double sum() const { return fill + seams; }
+};
+PostSeconds calibrate_post(const Scene& scene, const Preparation& preparation, const PostSettings& settings);
 
 /// Seconds for one audited texel of the first page that has light in its sample; 0 where none has.
 double calibrate_audit(const Scene& scene, const Preparation& preparation, size_t monitor,

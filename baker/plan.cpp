@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "baker/texel/lift.h"
 #include "runtime/scene/texture.h"
 
 namespace surimi {
@@ -45,10 +46,16 @@ class StageList {
                  masked > 0
                      ? fmt::format("{} of {} surfaces have alpha-masked materials", masked, scene_.surfaces.size())
                      : "every surface is opaque to rays, so none is asked for its texture");
+        add_inside();
         add("silhouettes", silhouettes_reason(), seconds_of(preparation_.costs, "silhouettes"));
+        add_lift();
+        add("seams",
+            fmt::format("edges on which charts meet, within {} surfaces and between them", scene_.surfaces.size()),
+            seconds_of(preparation_.costs, "seams"))
+            .runs = settings_.post.stitches_seams;
     }
 
-    void add_monitor(size_t m, double fill_seconds) {
+    void add_monitor(size_t m, const PostSeconds& post) {
         const Monitor& monitor = scene_.monitors[m];
         const PlannedMonitor& planned = plan_.monitors[m];
         const Calibration& c = planned.calibration;
@@ -63,7 +70,14 @@ class StageList {
         add("fill " + monitor.name,
             fmt::format("{} of the map has no light of its own: gutters, and texels that face away",
                         percent(map_texels() - c.lit, map_texels())),
-            fill_seconds);
+            post.fill);
+        const size_t pieces = preparation_.seams.pieces.size();
+        add("seams " + monitor.name,
+            !settings_.post.stitches_seams ? "turned off"
+            : pieces > 0 ? fmt::format("{} pieces of edges on which charts meet are made to agree", pieces)
+                         : "no two charts meet on an edge that is smooth",
+            post.seams)
+            .runs = pieces > 0;
     }
 
     void add_audit(size_t m, double seconds_per_texel) {
@@ -83,6 +97,30 @@ class StageList {
     }
     PlannedStage& add_part(const std::string& stage, bool runs, const std::string& why) {
         return plan_.stages.emplace_back(PlannedStage{stage, runs, why, 0, 0, true});
+    }
+
+    void add_inside() {
+        const ExposureCounts& exposure = preparation_.exposure;
+        const bool runs = settings_.finds_inside && exposure.probes > 0;
+        add("inside",
+            !settings_.finds_inside ? "turned off"
+            : runs ? fmt::format("{} texels are crossed by other surfaces: {} places probed, {} texels lie inside, "
+                                 "{} in part",
+                                 exposure.touched, exposure.probes, exposure.inside, exposure.partly)
+                   : "nothing touches anything: no place is probed",
+            seconds_of(preparation_.costs, "inside"))
+            .runs = runs;
+    }
+
+    void add_lift() {
+        size_t round = 0;
+        for (const Surface& surface : scene_.surfaces)
+            for (uint32_t t = 0; t < surface.triangles.size(); ++t) round += round_triangle(surface, t) ? 1 : 0;
+        const bool runs = settings_.gather.lifts_smooth && round > 0;
+        add_part("terminator", runs,
+                 !settings_.gather.lifts_smooth ? "turned off"
+                 : runs                         ? fmt::format("{} triangles are coarser than their shading", round)
+                                                : "no triangle is coarser than its shading");
     }
 
     double map_texels() const { return static_cast<double>(plan_.width) * plan_.height * plan_.pages; }
@@ -174,9 +212,9 @@ Plan plan(const Scene& scene, const BakeSettings& settings, const Progress& prog
     }
     StageList stages(scene, settings, preparation, plan);
     stages.add_preparation();
-    const double fill_seconds = calibrate_fill(scene, preparation);
+    const PostSeconds post = calibrate_post(scene, preparation, settings.post);
     for (size_t m = 0; m < scene.monitors.size(); ++m) {
-        stages.add_monitor(m, fill_seconds);
+        stages.add_monitor(m, post);
         stages.add_audit(m, settings.audit > 0 ? calibrate_audit(scene, preparation, m, settings.gather) : 0);
     }
     return plan;

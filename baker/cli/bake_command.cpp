@@ -10,6 +10,7 @@
 #include "baker/cli/density_summary.h"
 #include "baker/cli/evidence_summary.h"
 #include "baker/cli/existing_uv.h"
+#include "baker/cli/fix_options.h"
 #include "baker/cli/options.h"
 #include "baker/cli/progress.h"
 #include "baker/cli/time_budget.h"
@@ -72,6 +73,7 @@ Run add_bake_command(CLI::App& app) {
     add_scene_options(*command, *given);
     add_unwrap_options(*command, *given);
     add_gather_options(*command, given->gather.emplace());
+    add_fix_options(*command, given->without);
     command->add_option("-o,--output", *out, "Folder to write to [out]")->type_name("FOLDER");
     return [given, out] { return bake_scene(*given, *out); };
 }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "baker/cli/fix_options.h"
 #include "baker/cli/role_options.h"
 #include "runtime/base/error.h"
 
@@ -124,6 +125,14 @@ void read_size(const toml::node& node, const Place& place, UnwrapSettings& setti
     }
 }
 
+std::vector<std::string> strings_of(const toml::node& node, const std::string& key, const Place& place) {
+    const toml::array* array = node.as_array();
+    if (!array) place.fail(node, fmt::format("\"{}\" must be an array of names", key));
+    std::vector<std::string> strings;
+    for (const toml::node& item : *array) strings.push_back(value_of<std::string>(item, key, place));
+    return strings;
+}
+
 std::vector<const toml::table*> tables_of(const toml::node& node, const std::string& key, const Place& place) {
     std::vector<const toml::table*> tables;
     const toml::array* array = node.as_array();
@@ -166,6 +175,7 @@ void read_key(const std::string& key, const toml::node& node, const Place& place
     if (key == "threads") config.threads = value_of<int>(node, key, place);
     if (key == "monitor")
         for (const toml::table* item : tables_of(node, key, place)) read_monitor(*item, place, config.monitors);
+    if (key == "without") do_without(strings_of(node, key, place), place.file, config.bake);
     if (key == "glass") config.roles.glass = parse_glass(value_of<std::string>(node, key, place), place.file);
     if (key == "object")
         for (const toml::table* item : tables_of(node, key, place))

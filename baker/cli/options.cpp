@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "baker/cli/config_file.h"
+#include "baker/cli/fix_options.h"
 #include "baker/cli/role_options.h"
 #include "runtime/base/error.h"
 #include "runtime/scene/gltf.h"
@@ -100,6 +101,8 @@ Config effective_config(const Given& given) {
     if (given.stretch) unwrap.stretch = *given.stretch;
     if (given.is_uniform) unwrap.is_uniform = true;
     if (given.uv_quality) unwrap.quality = parse_uv_quality(*given.uv_quality, "--uv-quality");
+    if (!environment_without().empty()) do_without(environment_without(), "SURIMI_WITHOUT", config.bake);
+    if (!given.without.empty()) do_without(given.without, "--without", config.bake);
     if (given.gather) {
         apply(environment_wishes(), "environment", config);
         apply(*given.gather, "command line", config);
@@ -144,6 +147,7 @@ std::string to_toml(const Config& config) {
     text += fmt::format("glass = \"{}\"         # block: it casts full shadows; clear: none\n",
                         name_of(config.roles.glass));
     text += gather_toml(config);
+    text += fixes_toml(config.bake);
     text += fmt::format("threads = {}              # 0: all cores\n", config.threads);
     for (const TexelScale& wish : unwrap.texel_scales) {
         text += "\n[[texel_scale]]\n";
@@ -203,6 +207,7 @@ std::string settings_json(const Config& config) {
     nlohmann::ordered_json json = unwrap_json(config);
     json["glass"] = name_of(config.roles.glass);
     add_gather_json(config, json);
+    if (!without(config.bake).empty()) json["without"] = without(config.bake);
     return json.dump();
 }
 

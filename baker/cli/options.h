@@ -33,6 +33,7 @@ struct Given {
     std::optional<int> atlases;
     std::optional<double> stretch;
     std::optional<std::string> uv_quality;
+    std::vector<std::string> without;
     std::optional<GatherWishes> gather;  ///< none: the subcommand does not gather and has no such options
     std::optional<int> threads;
     std::string progress = "auto";

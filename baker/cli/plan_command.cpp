@@ -9,6 +9,7 @@
 
 #include "baker/cli/commands.h"
 #include "baker/cli/existing_uv.h"
+#include "baker/cli/fix_options.h"
 #include "baker/cli/options.h"
 #include "baker/cli/plan_report.h"
 #include "baker/cli/progress.h"
@@ -67,6 +68,7 @@ Run add_plan_command(CLI::App& app) {
     add_scene_options(*command, *given);
     add_unwrap_options(*command, *given);
     add_gather_options(*command, given->gather.emplace());
+    add_fix_options(*command, given->without);
     command->add_option("--compare", *manifest, "NAME.visibility.json of a bake: what was foretold beside what was")
         ->type_name("MANIFEST");
     return [given, manifest] { return plan_scene(*given, *manifest); };

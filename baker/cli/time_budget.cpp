@@ -70,7 +70,7 @@ std::string spend(const Scene& scene, Config& config, const Progress& progress) 
     const Preparation preparation = prepare(scene, config.bake, progress);
     double rest = seconds_of(preparation.costs);  // the bake does it again
     for (size_t m = 0; m < scene.monitors.size(); ++m) {
-        rest += calibrate_fill(scene, preparation);
+        rest += calibrate_post(scene, preparation, config.bake.post).sum();
         if (config.bake.audit > 0)
             rest += static_cast<double>(config.bake.audit) * calibrate_audit(scene, preparation, m, gather);
     }

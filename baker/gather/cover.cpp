@@ -9,12 +9,12 @@
 namespace surimi {
 namespace {
 
-constexpr double most_of_diameter = 0.01;  // a bezel stands out farther, and its shadow counts
-constexpr double least_cosine = 0.9998;    // one degree
-constexpr int side = 16;                   // places along the panel's axes
+constexpr double most_of_side = 0.02;    // of the shorter one; a bezel stands out farther, and its shadow counts
+constexpr double least_cosine = 0.9998;  // one degree
+constexpr int side = 16;                 // places along the panel's axes
 
-double diameter_of(const Panel& panel) {
-    return 2 * std::hypot(glm::length(panel.axis_s), glm::length(panel.axis_t));
+double shorter_side(const Panel& panel) {
+    return 2 * std::min(glm::length(panel.axis_s), glm::length(panel.axis_t));
 }
 
 bool is_on_panel(const Panel& panel, const Vec2& place) {
@@ -27,7 +27,7 @@ bool is_on_panel(const Panel& panel, const Vec2& place) {
 
 /// The farthest of what lies flat over one place of the panel, layer by layer.
 Cover cover_at(const RayScene& rays, const Panel& panel, size_t monitor, const Vec3& place) {
-    const double most = most_of_diameter * diameter_of(panel);
+    const double most = most_of_side * shorter_side(panel);
     constexpr int most_layers = 8;
     Cover cover;
     double start = 0.5 * panel.clearance;

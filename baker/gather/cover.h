@@ -18,7 +18,7 @@ struct Cover {
     uint32_t surface = 0;  ///< index into Scene::surfaces, or beyond them as TriangleRef counts panels
 };
 
-/// The cover of a panel, at most a hundredth of its diameter in front of it. Costs some hundred rays.
+/// The cover of a panel, at most a fiftieth of its shorter side in front of it. Costs some hundred rays.
 Cover find_cover(const RayScene& rays, const Panel& panel, size_t monitor);
 
 /// Raises the panels' clearance over their covers.

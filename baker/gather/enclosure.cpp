@@ -29,6 +29,24 @@ Vec3 probe_direction(const Vec3& normal, uint32_t i, const Scrambling& seeds) {
     return radius * std::cos(angle) * u + radius * std::sin(angle) * v + std::sqrt(1 - r[0]) * normal;
 }
 
+/// Does a walk from face to face find a way out of the scene?
+bool leaves(const RayScene& rays, Vec3 origin, Vec3 direction, uint64_t key) {
+    constexpr uint32_t most_steps = 8;
+    const Scrambling seeds = scrambling(key);
+    for (uint32_t i = 0; i < most_steps; ++i) {
+        const auto hit = rays.closest_hit(origin, direction);
+        if (!hit) return true;
+        const auto corners = rays.corners_of(hit->triangle);
+        const Vec3 normal = normalize_or(area_normal(corners[0], corners[1], corners[2]), -direction);
+        const Vec3 front = glm::dot(normal, direction) < 0 ? normal : -normal;
+        origin += hit->distance * direction;
+        const double rounding = 1e-5 * (hit->distance + largest_component(origin - rays.center()));
+        origin += rounding * front;
+        direction = probe_direction(front, i, seeds);
+    }
+    return false;
+}
+
 }  // namespace
 
 EnclosureJudge::EnclosureJudge(const Scene& scene, const RayScene& rays) : scene_(scene), rays_(rays) {
@@ -81,7 +99,7 @@ Enclosure EnclosureJudge::judge(const SurfacePoint& point, double texel_size, ui
 
 void EnclosureJudge::look_from_monitors() {
     constexpr uint32_t count = 64;  // rays of each monitor
-    uint32_t inside = 0, away = 0, all = 0;
+    uint32_t inside = 0, leaving = 0, all = 0;
     for (const MonitorSampler& sampler : samplers_) {
         const Scrambling seeds = scrambling(all);
         // Off the panel by some of its width, or rays would meet what it is let into.
@@ -89,13 +107,14 @@ void EnclosureJudge::look_from_monitors() {
         for (uint32_t i = 0; i < count; ++i, ++all) {
             const auto r = scrambled(sobol::point(i), seeds);
             const LightPoint light = sampler.sample(r[2], r[3]);
-            const Way way = rays_.follow(light.position + step * light.normal, probe_direction(light.normal, i, seeds));
-            inside += way.comes_out ? 1 : 0;
-            away += way.meets_nothing ? 1 : 0;
+            const Vec3 origin = light.position + step * light.normal,
+                       direction = probe_direction(light.normal, i, seeds);
+            inside += rays_.follow(origin, direction).comes_out ? 1 : 0;
+            leaving += leaves(rays_, origin, direction, hash(all)) ? 1 : 0;
         }
     }
     is_reliable_ = 2 * inside <= all;
-    is_closed_ = all > 0 && 64 * away < all;
+    is_closed_ = all > 0 && 64 * leaving < all;
 }
 
 }  // namespace surimi

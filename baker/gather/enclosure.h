@@ -38,7 +38,7 @@ class EnclosureJudge {
     const RayScene& rays_;
     std::vector<MonitorSampler> samplers_;  // of Scene::monitors
     bool is_reliable_ = true;
-    bool is_closed_ = false;  // next to no ray from a monitor leaves the scene: who can leave it is outside the room
+    bool is_closed_ = false;  // walks from the monitors do not find out of the scene: who sees out of it is outside the room
 };
 
 }  // namespace surimi

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "baker/gather/blocks.h"
 #include "baker/gather/contacts.h"
@@ -59,11 +60,11 @@ void add_places(const RayScene& rays, const TexelSurface& surface, std::vector<V
     });
 }
 
-void cut_where_hidden(const RayScene& rays, TexelSurface& surface) {
+TexelSurface::CutResult cut_where_hidden(const RayScene& rays, TexelSurface& surface) {
     std::vector<Vec3> places;
     add_places(rays, surface, places);
     bool is_touched = false;
-    cut_where_hidden(rays, triangles_around(rays, places), surface, is_touched);
+    return cut_where_hidden(rays, triangles_around(rays, places), surface, is_touched);
 }
 
 void keep_free_pieces(const RayScene& rays, const Texel& texel, TexelSurface& surface) {
@@ -87,7 +88,8 @@ TexelSurface exposed_surface(const Receivers& receivers, const Texel& texel, std
         if (is_lit(panels, rays, back)) return back;
     }
     keep_free_pieces(rays, texel, surface);
-    if (receivers.lifts_smooth) lift_pieces(rays, surface);
+    // What a smooth surface touches would be behind what is lifted.
+    if (receivers.lifts_smooth && !texel.is_touched) lift_pieces(rays, surface);
     return surface;
 }
 
@@ -99,8 +101,6 @@ double exposed_area(const Receivers& receivers, const Texel& texel) {
 }
 
 namespace {
-
-enum class Contact : uint8_t { none, touched, crossed };
 
 /// All pages' panels of all monitors, and the judge: what the texels of a block are judged by.
 struct Judging {
@@ -122,20 +122,30 @@ struct Judging {
         return is_called_for && judge.judge(back, texel_size, hash(key, 1)) != Enclosure::enclosed;
     }
 
-    /// As Texel::free_pieces; adds to `probes`.
+    /// As Texel::free_pieces; adds to `probes`. What is free of a sixteenth of the texel or less says too little of
+    /// what is around it.
     uint32_t free_pieces_of(TexelSurface surface, uint64_t key, size_t& probes) const {
+        constexpr double least_share = 1.0 / 16;
         const double texel_size = std::sqrt(surface.area());
-        cut_where_hidden(rays, surface);
-        const size_t count = surface.pieces().size();
-        if (count > most_parts_of_texel) return Texel::all_pieces;
+        const SurfacePoint center = surface.center();
+        const TexelSurface::CutResult cut = cut_where_hidden(rays, surface);
+        if (!cut.is_cut || !cut.is_whole) {
+            ++probes;
+            return judge.judge(center, texel_size, key) == Enclosure::enclosed ? 0 : Texel::all_pieces;
+        }
         uint32_t free = 0;
+        double share = 0;
+        const size_t count = surface.pieces().size();
         for (size_t i = 0; i < count; ++i) {
             const TexelSurface::Piece& piece = surface.pieces()[i];
             const SurfacePoint middle = TexelSurface::point_of(piece, piece.middle());
-            if (judge.judge(middle, texel_size, hash(key, i)) != Enclosure::enclosed) free |= 1u << i;
+            if (judge.judge(middle, texel_size, hash(key, i)) == Enclosure::enclosed) continue;
+            free |= 1u << i;
+            share += surface.share_of(piece);
         }
         probes += count;
-        return free == (1u << count) - 1 ? Texel::all_pieces : free;
+        if (free == (1u << count) - 1) return Texel::all_pieces;
+        return share > least_share ? free : 0;
     }
 };
 
@@ -148,9 +158,8 @@ uint64_t key_of(const Texels& texels, const Texel& texel) {
 /// The texels of one block, judged.
 class BlockJudge {
   public:
-    BlockJudge(const Judging& judging, Texels& texels, std::span<const uint32_t> members,
-               std::span<const Contact> contacts)
-        : judging_(judging), texels_(texels), members_(members), contacts_(contacts) {
+    BlockJudge(const Judging& judging, Texels& texels, std::span<const uint32_t> members)
+        : judging_(judging), texels_(texels), members_(members) {
         grid_.fill(-1);
         const auto width = static_cast<uint32_t>(texels.width);
         for (size_t i = 0; i < members.size(); ++i) {
@@ -165,17 +174,17 @@ class BlockJudge {
         for (size_t cell = 0; cell < grid_.size(); ++cell) {
             const int member = grid_[cell];
             if (member < 0 || is_done[static_cast<size_t>(member)]) continue;
-            if (contact_of(member) == Contact::none)
-                judge_group(group_from(cell, is_done));
+            if (texel_of(member).is_touched)
+                judge_touched(texel_of(member));
             else
-                judge_touched(texel_of(member), contact_of(member));
+                judge_group(group_from(cell, is_done));
         }
         return probes_;
     }
 
   private:
     Texel& texel_of(int member) { return texels_.texels[members_[static_cast<size_t>(member)]]; }
-    Contact contact_of(int member) const { return contacts_[members_[static_cast<size_t>(member)]]; }
+    const Texel& texel_of(int member) const { return texels_.texels[members_[static_cast<size_t>(member)]]; }
 
     uint64_t key(const Texel& texel) const { return key_of(texels_, texel); }
 
@@ -204,7 +213,7 @@ class BlockJudge {
                 if (x + dx < 0 || y + dy < 0 || x + dx >= tile_size || y + dy >= tile_size) continue;
                 const auto cell = static_cast<size_t>((y + dy) * tile_size + x + dx);
                 const int member = grid_[cell];
-                if (member < 0 || contact_of(member) != Contact::none || is_done[static_cast<size_t>(member)]) continue;
+                if (member < 0 || texel_of(member).is_touched || is_done[static_cast<size_t>(member)]) continue;
                 is_done[static_cast<size_t>(member)] = 1;
                 cells.push_back(cell);
             }
@@ -233,42 +242,39 @@ class BlockJudge {
         texel.may_turn = judging_.may_turn(surface.center(), std::sqrt(surface.area()), key(texel));
     }
 
-    void judge_touched(Texel& texel, Contact contact) {
-        if (contact == Contact::crossed)
-            texel.free_pieces = judging_.free_pieces_of(surface_of(texel), key(texel), probes_);
-        else if (judge(texel) == Enclosure::enclosed)
-            texel.free_pieces = 0;
+    void judge_touched(Texel& texel) {
+        texel.free_pieces = judging_.free_pieces_of(surface_of(texel), key(texel), probes_);
         if (!texel.is_inside()) judge_back(texel);
     }
 
     const Judging& judging_;
     Texels& texels_;
     std::span<const uint32_t> members_;
-    std::span<const Contact> contacts_;  // by number of the texel
     std::array<int16_t, tile_size * tile_size> grid_{};
     size_t probes_ = 0;
 };
 
 constexpr size_t grain = 8;  // blocks; a few milliseconds
 
-/// What touches each texel of a page.
-std::vector<Contact> find_touched(const Receivers& receivers, const Blocks& blocks) {
-    std::vector<Contact> contacts(receivers.texels.texels.size(), Contact::none);
+/// Says of each texel of a page whether something touches it; returns how many are cut in parts.
+size_t find_touched(const Scene& scene, const Atlas& atlas, const RayScene& rays, const Blocks& blocks, Texels& page) {
+    std::vector<size_t> crossed(blocks.count(), 0);
     parallel_for(blocks.count(), grain, [&](size_t b) {
         std::vector<TexelSurface> surfaces;
         std::vector<Vec3> places;
         for (const uint32_t number : blocks[b]) {
-            surfaces.emplace_back(receivers.scene, receivers.atlas, receivers.texels, receivers.texels.texels[number]);
-            add_places(receivers.rays, surfaces.back(), places);
+            surfaces.emplace_back(scene, atlas, page, page.texels[number]);
+            add_places(rays, surfaces.back(), places);
         }
-        const std::vector<BoxedTriangle> around = triangles_around(receivers.rays, places);
+        const std::vector<BoxedTriangle> around = triangles_around(rays, places);
         for (size_t i = 0; i < surfaces.size() && !around.empty(); ++i) {
             bool is_touched = false;
-            const TexelSurface::CutResult cut = cut_where_hidden(receivers.rays, around, surfaces[i], is_touched);
-            if (is_touched) contacts[blocks[b][i]] = cut.is_cut && cut.is_whole ? Contact::crossed : Contact::touched;
+            const TexelSurface::CutResult cut = cut_where_hidden(rays, around, surfaces[i], is_touched);
+            page.texels[blocks[b][i]].is_touched = is_touched;
+            if (cut.is_cut) ++crossed[b];
         }
     });
-    return contacts;
+    return std::accumulate(crossed.begin(), crossed.end(), size_t{0});
 }
 
 }  // namespace
@@ -276,17 +282,14 @@ std::vector<Contact> find_touched(const Receivers& receivers, const Blocks& bloc
 ExposureCounts find_exposures(const Scene& scene, const Atlas& atlas, const RayScene& rays, std::span<Texels> pages) {
     ExposureCounts counts;
     std::vector<Blocks> blocks;
-    std::vector<std::vector<Contact>> contacts;
-    for (const Texels& page : pages) {
+    for (Texels& page : pages) {
         blocks.push_back(find_blocks(page));
-        contacts.push_back(find_touched({scene, atlas, page, rays}, blocks.back()));
-        counts.crossed += static_cast<size_t>(std::ranges::count(contacts.back(), Contact::crossed));
-        counts.touched += static_cast<size_t>(std::ranges::count(contacts.back(), Contact::touched));
+        counts.crossed += find_touched(scene, atlas, rays, blocks.back(), page);
+        counts.touched += static_cast<size_t>(std::ranges::count(page.texels, true, &Texel::is_touched));
     }
-    counts.touched += counts.crossed;
     const bool has_two_sided =
         std::ranges::any_of(scene.surfaces, [](const Surface& surface) { return surface.is_two_sided; });
-    if (counts.crossed == 0 && !has_two_sided) return counts;
+    if (counts.touched == 0 && !has_two_sided) return counts;
     const EnclosureJudge judge(scene, rays);
     if (!judge.is_reliable()) {
         counts.warnings.push_back(
@@ -299,7 +302,7 @@ ExposureCounts find_exposures(const Scene& scene, const Atlas& atlas, const RayS
     for (size_t p = 0; p < pages.size(); ++p) {
         std::vector<size_t> probes(blocks[p].count(), 0);
         parallel_for(blocks[p].count(), grain,
-                     [&](size_t b) { probes[b] = BlockJudge(judging, pages[p], blocks[p][b], contacts[p]).run(); });
+                     [&](size_t b) { probes[b] = BlockJudge(judging, pages[p], blocks[p][b]).run(); });
         for (const size_t of_block : probes) counts.probes += of_block;
         for (const Texel& texel : pages[p].texels) {
             counts.inside += texel.is_inside() ? 1 : 0;

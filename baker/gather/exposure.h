@@ -22,7 +22,7 @@ struct ExposureCounts {
     std::vector<std::string> warnings;
 };
 
-/// Writes Texel::free_pieces and Texel::may_turn of all pages. Where nothing crosses any texel there is nothing to
+/// Writes Texel::free_pieces and Texel::may_turn of all pages. Where nothing touches any texel there is nothing to
 /// probe, and all stays free. Texels that no surface touches are judged in groups that hang together: one place in a
 /// group of a tile says it for all. Two-sided surfaces' texels may turn where their back is not enclosed.
 ExposureCounts find_exposures(const Scene& scene, const Atlas& atlas, const RayScene& rays, std::span<Texels> pages);

@@ -33,7 +33,7 @@ bool is_needle(const FaceGraph& graph, uint32_t face) {
 }
 
 /// Cuts or joins the creases between some faces.
-void set_creases(const FaceGraph& graph, const std::vector<uint32_t>& faces, bool is_cut, Seams& seams) {
+void set_creases(const FaceGraph& graph, const std::vector<uint32_t>& faces, bool is_cut, SeamFlags& seams) {
     for (const uint32_t f : faces) {
         for (uint32_t k = 0; k < 3; ++k) {
             const uint32_t g = graph.neighbours[f][k];
@@ -45,7 +45,7 @@ void set_creases(const FaceGraph& graph, const std::vector<uint32_t>& faces, boo
 
 /// Splits every part until it is a chart. Parts are independent, so a round of them runs in parallel.
 std::vector<FlatChart> split_until_flat(const FaceGraph& graph, std::vector<std::vector<uint32_t>> open,
-                                        const CutSettings& settings, const Progress& progress, Seams& seams) {
+                                        const CutSettings& settings, const Progress& progress, SeamFlags& seams) {
     std::vector<FlatChart> charts;
     std::vector<uint32_t> number(graph.corners.size());
     bool is_whole = true;  // pieces that creases alone have cut out
@@ -82,7 +82,7 @@ double area_of(const FaceGraph& graph, const std::vector<uint32_t>& faces) {
 /// Cuts the creases, but not of pieces that lie flat without and would fall into one large part and crumbs: rough
 /// ground has creases everywhere, and is one chart all the same.
 std::vector<std::vector<uint32_t>> cut_at_creases(const FaceGraph& graph, const std::vector<uint32_t>& faces,
-                                                  const CutSettings& settings, Seams& seams,
+                                                  const CutSettings& settings, SeamFlags& seams,
                                                   std::vector<FlatChart>& charts) {
     std::vector<uint32_t> number(graph.corners.size());
     std::vector<std::vector<uint32_t>> result;
@@ -125,7 +125,7 @@ std::vector<FlatChart> cut_into_charts(const FaceGraph& graph, const CutSettings
         else
             faces.push_back(f);
     }
-    Seams seams(graph);
+    SeamFlags seams(graph);
     std::vector<FlatChart> charts;
     std::vector<std::vector<uint32_t>> pieces = cut_at_creases(graph, faces, settings, seams, charts);
     std::vector<FlatChart> flat = split_until_flat(graph, std::move(pieces), settings, progress, seams);

@@ -42,7 +42,7 @@ double effort_of(UvQuality quality) {
 
 class Joiner {
   public:
-    Joiner(const FaceGraph& graph, const CutSettings& settings, Seams& seams, std::vector<FlatChart>& charts)
+    Joiner(const FaceGraph& graph, const CutSettings& settings, SeamFlags& seams, std::vector<FlatChart>& charts)
         : graph_(graph), settings_(settings), seams_(seams), charts_(charts), number_(graph.corners.size()) {
         chart_of_.assign(graph.corners.size(), no_chart);
         size_t faces = 0;
@@ -182,7 +182,7 @@ class Joiner {
 
     const FaceGraph& graph_;
     const CutSettings& settings_;
-    Seams& seams_;
+    SeamFlags& seams_;
     std::vector<FlatChart>& charts_;
     std::vector<uint32_t> number_;
     std::vector<uint32_t> chart_of_;
@@ -193,7 +193,7 @@ class Joiner {
 
 }  // namespace
 
-void join_charts(const FaceGraph& graph, const CutSettings& settings, const Progress& progress, Seams& seams,
+void join_charts(const FaceGraph& graph, const CutSettings& settings, const Progress& progress, SeamFlags& seams,
                  std::vector<FlatChart>& charts) {
     Joiner(graph, settings, seams, charts).run(progress);
 }

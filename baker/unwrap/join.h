@@ -10,7 +10,7 @@ namespace surimi {
 
 /// Joins charts along runs of seam, the longest visible ones first, while the result stays within the bound and free
 /// of overlap. The number of tries is bounded by the triangles that they flatten, as settings.quality says.
-void join_charts(const FaceGraph& graph, const CutSettings& settings, const Progress& progress, Seams& seams,
+void join_charts(const FaceGraph& graph, const CutSettings& settings, const Progress& progress, SeamFlags& seams,
                  std::vector<FlatChart>& charts);
 
 }  // namespace surimi

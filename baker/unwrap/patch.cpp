@@ -20,7 +20,8 @@ uint32_t surface_corner(const FaceGraph& graph, uint32_t face, uint32_t k) {
     return (graph.first_corners[face] + k) % 3;
 }
 
-void find_neighbours(const FaceGraph& graph, const Seams& seams, const std::vector<uint32_t>& number, Patch& patch) {
+void find_neighbours(const FaceGraph& graph, const SeamFlags& seams, const std::vector<uint32_t>& number,
+                     Patch& patch) {
     patch.neighbours.assign(patch.faces.size(), {no_face, no_face, no_face});
     for (uint32_t t = 0; t < patch.faces.size(); ++t) {
         for (uint32_t k = 0; k < 3; ++k) {
@@ -110,7 +111,7 @@ void measure(const FaceGraph& graph, Patch& patch) {
 
 }  // namespace
 
-Seams::Seams(const FaceGraph& graph) : flags(3 * graph.corners.size(), 0) {
+SeamFlags::SeamFlags(const FaceGraph& graph) : flags(3 * graph.corners.size(), 0) {
     for (uint32_t f = 0; f < graph.corners.size(); ++f)
         for (uint32_t k = 0; k < 3; ++k) flags[3 * f + k] = graph.neighbours[f][k] == no_face ? 1 : 0;
 }
@@ -126,14 +127,14 @@ uint32_t corner_beyond(const FaceGraph& graph, uint32_t face, uint32_t k) {
     return 0;  // unreachable: neighbours are mutual
 }
 
-void set_seam(const FaceGraph& graph, uint32_t face, uint32_t k, bool is_cut, Seams& seams) {
+void set_seam(const FaceGraph& graph, uint32_t face, uint32_t k, bool is_cut, SeamFlags& seams) {
     const uint32_t beyond = graph.neighbours[face][k];
     if (beyond == no_face) return;
     seams.flags[3 * face + k] = is_cut ? 1 : 0;
     seams.flags[3 * beyond + corner_beyond(graph, face, k)] = is_cut ? 1 : 0;
 }
 
-std::vector<std::vector<uint32_t>> connected_parts(const FaceGraph& graph, const Seams& seams,
+std::vector<std::vector<uint32_t>> connected_parts(const FaceGraph& graph, const SeamFlags& seams,
                                                    const std::vector<uint32_t>& faces, std::vector<uint32_t>& number) {
     std::vector<uint32_t> sorted = faces;
     const auto is_before = [&](uint32_t a, uint32_t b) { return graph.ranks[a] < graph.ranks[b]; };
@@ -169,7 +170,7 @@ int Patch::euler_characteristic() const {
     return static_cast<int>(positions.size()) - static_cast<int>(edges) + static_cast<int>(triangles.size());
 }
 
-Patch build_patch(const FaceGraph& graph, const Seams& seams, std::vector<uint32_t> faces,
+Patch build_patch(const FaceGraph& graph, const SeamFlags& seams, std::vector<uint32_t> faces,
                   std::vector<uint32_t>& number) {
     Patch patch;
     patch.faces = std::move(faces);

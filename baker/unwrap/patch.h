@@ -12,8 +12,8 @@ namespace surimi {
 
 /// Which edges of a surface are cut. Flags of corners: 3 * face + k stands for the edge from corner k to k + 1, and
 /// both sides of an edge have the same flag. Edges without a face beyond count as cut.
-struct Seams {
-    explicit Seams(const FaceGraph& graph);
+struct SeamFlags {
+    explicit SeamFlags(const FaceGraph& graph);
 
     bool is_cut(uint32_t face, uint32_t k) const { return flags[3 * face + k] != 0; }
 
@@ -21,14 +21,14 @@ struct Seams {
 };
 
 /// Cuts or joins the edge, on both sides.
-void set_seam(const FaceGraph& graph, uint32_t face, uint32_t k, bool is_cut, Seams& seams);
+void set_seam(const FaceGraph& graph, uint32_t face, uint32_t k, bool is_cut, SeamFlags& seams);
 
 /// The corner of the face beyond edge k at which the same edge starts there.
 uint32_t corner_beyond(const FaceGraph& graph, uint32_t face, uint32_t k);
 
 /// Parts of `faces` that hang together across uncut edges, each sorted by rank, ordered by their first faces' ranks.
 /// `number` is scratch of the size of the graph; faces of other calls at the same time have to be others.
-std::vector<std::vector<uint32_t>> connected_parts(const FaceGraph& graph, const Seams& seams,
+std::vector<std::vector<uint32_t>> connected_parts(const FaceGraph& graph, const SeamFlags& seams,
                                                    const std::vector<uint32_t>& faces, std::vector<uint32_t>& number);
 
 struct Patch {
@@ -49,7 +49,7 @@ struct Patch {
 /// `faces`, which hang together and none of which is a sliver, by rank. Vertices are split along the seams, so that
 /// each has one fan of triangles and the boundary is made of simple loops. `number` as above; on return it numbers the
 /// faces.
-Patch build_patch(const FaceGraph& graph, const Seams& seams, std::vector<uint32_t> faces,
+Patch build_patch(const FaceGraph& graph, const SeamFlags& seams, std::vector<uint32_t> faces,
                   std::vector<uint32_t>& number);
 
 }  // namespace surimi

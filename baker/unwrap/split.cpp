@@ -186,7 +186,7 @@ void straighten(const FaceGraph& graph, const Patch& patch, std::vector<uint8_t>
     for (size_t t = 0; t < sides.size(); ++t) sides[t] = stays[node[t]] ? 0 : 1;
 }
 
-void cut_between(const FaceGraph& graph, const Patch& patch, const std::vector<uint8_t>& sides, Seams& seams) {
+void cut_between(const FaceGraph& graph, const Patch& patch, const std::vector<uint8_t>& sides, SeamFlags& seams) {
     for (uint32_t t = 0; t < sides.size(); ++t) {
         for (uint32_t k = 0; k < 3; ++k) {
             const uint32_t beyond = patch.neighbours[t][k];

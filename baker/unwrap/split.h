@@ -27,6 +27,6 @@ std::vector<uint8_t> split_by_shape(const Patch& patch);
 void straighten(const FaceGraph& graph, const Patch& patch, std::vector<uint8_t>& sides);
 
 /// Cuts the edges between the sides.
-void cut_between(const FaceGraph& graph, const Patch& patch, const std::vector<uint8_t>& sides, Seams& seams);
+void cut_between(const FaceGraph& graph, const Patch& patch, const std::vector<uint8_t>& sides, SeamFlags& seams);
 
 }  // namespace surimi

@@ -86,6 +86,19 @@ Json audits_json(const std::vector<Audit>& audits) {
     return json;
 }
 
+Json jumps_json(const Jumps& jumps) {
+    return {{"largest", jumps.largest}, {"percentile99", jumps.percentile_99}};
+}
+
+Json seams_json(const StitchReport& seams) {
+    return {{"pieces", seams.pieces},
+            {"metres", seams.metres},
+            {"texelsMoved", seams.texels},
+            {"largestMove", seams.largest_move},
+            {"jumpsBefore", jumps_json(seams.before)},
+            {"jumpsAfter", jumps_json(seams.after)}};
+}
+
 }  // namespace
 
 Json error_section(const Scene& scene, const Bake& bake) {
@@ -104,6 +117,7 @@ Json evidence_section(const Scene& scene, const Bake& bake) {
                   {"errorHistogram", histogram_json(evidence.statistics)},
                   {"methods", methods_json(evidence.statistics)}};
         json.update(work_json(evidence.statistics));
+        json["seams"] = seams_json(evidence.seams);
         if (!evidence.audits.empty()) json["audit"] = audits_json(evidence.audits);
         return json;
     });

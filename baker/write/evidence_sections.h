@@ -13,7 +13,7 @@ namespace surimi {
 nlohmann::ordered_json error_section(const Scene& scene, const Bake& bake);
 
 /// By channel: the promise and whether it is kept; the histogram of the estimates (`below` has the upper ends of the
-/// bins; the first is for exact values); texels, points and rays by method; what blocks and points met; the audit, if
+/// bins; the first is for exact values); texels, points and rays by method; what blocks and points met; seams before and after; the audit, if
 /// there was one, with its 95 % interval. Nothing here depends on the machine or the number of threads.
 nlohmann::ordered_json evidence_section(const Scene& scene, const Bake& bake);
 

@@ -16,7 +16,7 @@ namespace surimi {
 namespace {
 
 constexpr unsigned solid_mask = 1u << 3;  // bits 0 to 2 belong to the monitors
-constexpr unsigned cutout_mask = 1u << 4;
+constexpr unsigned sheet_mask = 1u << 4;  // enclose nothing
 constexpr unsigned shown_mask = 1u << 5;  // what only pictures show
 constexpr unsigned casters = 0x1fu;
 constexpr unsigned everything = casters | shown_mask;
@@ -88,7 +88,7 @@ void RayScene::State::attach(const std::vector<Vec3>& positions, const std::vect
 
 void RayScene::State::attach_surface(uint32_t index) {
     const Surface& surface = scene.surfaces[index];
-    const unsigned ordinary = is_cutout(scene, surface) ? cutout_mask : solid_mask;
+    const unsigned ordinary = surface.is_two_sided || is_cutout(scene, surface) ? sheet_mask : solid_mask;
     const unsigned own_mask = surface.monitor < 0 ? ordinary : 1u << static_cast<unsigned>(surface.monitor);
     const unsigned mask = surface.casts ? own_mask : shown_mask;
     if (!surface.triangles.empty()) attach(surface.positions, surface.triangles, mask, index);

@@ -97,7 +97,7 @@ class RayScene {
     /// The corners of a triangle as rays meet it, monitors' panels among them, relative to center().
     std::array<Vec3, 3> corners_of(const TriangleRef& triangle) const;
 
-    /// Follows a ray through everything that casts but monitors and alpha-masked surfaces.
+    /// Follows a ray through everything that casts but monitors, alpha-masked and two-sided surfaces.
     Way follow(const Vec3& origin, const Vec3& direction) const;
 
     /// Nearest surface along a ray, of all that are held (see Attach); alpha-masked holes are not hit.

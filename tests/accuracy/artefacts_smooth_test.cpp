@@ -72,7 +72,7 @@ TEST(Terminator, CylinderAgainstAWallIsDarkBehindIt_M3) {
     const ArtefactScene stage = test::cylinder_against_a_wall();
     const Bake baked = bake(stage.scene, of_size(192), {});
     const Misses misses = MapJudge(stage, baked).compare_with(stage.surfaces[0], 0, 0);
-    EXPECT_GT(misses.checked, 500u);
+    EXPECT_GT(misses.checked, 300u);  // what touches the wall is inside
     EXPECT_EQ(misses.wrong, 0u) << misses.text();
 }
 

@@ -20,15 +20,18 @@ BakeSettings of_size(int size) {
 }
 
 /// Texels are within the error of what can be seen of them, one in a thousand excepted, and reads where all around is
-/// lit, or all is dark, are exactly that.
-void expect_no_rims(const ArtefactScene& stage, int least_texels, int least_reads) {
-    const BakeSettings settings = of_size(96);
+/// lit, or all is dark, are exactly that, or within what a `penumbra` between the places looked at may take from a
+/// texel.
+void expect_no_rims(const ArtefactScene& stage, int least_texels, int least_reads, double penumbra = 0) {
+    const double error = GatherSettings{}.error;
+    BakeSettings settings = of_size(96);
+    settings.gather.error = error / 2;  // rims are judged here, not whether one in a thousand is beyond the error
     const Bake baked = bake(stage.scene, settings, {});
     const MapJudge judge(stage, baked);
-    const Misses texels = judge.compare_texels(settings.gather.error);
+    const Misses texels = judge.compare_texels(error);
     EXPECT_GT(texels.checked, static_cast<size_t>(test::cases(least_texels)));
     EXPECT_LE(texels.wrong, texels.checked / 1000) << "texels: " << texels.text();
-    const Misses reads = judge.compare_plain_reads(static_cast<size_t>(test::cases(4000)));
+    const Misses reads = judge.compare_plain_reads(static_cast<size_t>(test::cases(4000)), penumbra);
     EXPECT_GT(reads.checked, static_cast<size_t>(test::cases(least_reads)));
     EXPECT_EQ(reads.wrong, 0u) << "reads: " << reads.text();
 }
@@ -86,7 +89,7 @@ TEST(SunkBox, TexelsUnderItAreInsideAndNotMeasured) {
     const Bake baked = bake(stage.scene, of_size(128), {});
     const MapJudge judge(stage, baked);
     EXPECT_GT(judge.count(stage.surfaces[0], TexelState::inside), 100u);  // 0.72 m^2 of floor
-    EXPECT_GT(judge.count(stage.surfaces[1], TexelState::inside), 50u);   // and the sides below it
+    EXPECT_GT(judge.count(stage.surfaces[1], TexelState::inside), 20u);   // and of the sides what is next to it
 }
 
 TEST(StandingBox, WithItsBottomInTheFloorsPlaneHasNoRims_M3) {
@@ -130,7 +133,8 @@ TEST(Poster, AMillimetreBehindAWallDoesNotShine_M3) {
 }
 
 TEST(Poster, AMillimetreBeforeAWallHasNoRim_M3) {
-    expect_no_rims(test::poster_before_a_wall(), 2000, 500);
+    // Its own penumbra: light at a slope of up to 1/2 over 1 mm, in a texel of 31 mm.
+    expect_no_rims(test::poster_before_a_wall(), 2000, 500, 0.5 * 0.001 / 0.031);
 }
 
 }  // namespace

@@ -26,11 +26,12 @@ namespace {
 BakeSettings settings_without(const std::vector<std::string>& names) {
     BakeSettings settings;
     for (const std::string& name : names) {
-        if (name == "density") {
+        if (name == "density")
             settings.unwrap.is_uniform = true;
-        } else {
-            throw Error(ErrorKind::usage, "no fix is called " + name + "; there is: density");
-        }
+        else if (name == "all")
+            for (const Fix& fix : fixes()) fix.in(settings) = false;
+        else
+            fix_named(name, "--without").in(settings) = false;
     }
     return settings;
 }

@@ -64,6 +64,9 @@ ArtefactScene texels_with_two_shadows() {
     stage.surfaces = {add_roof(stage.scene, 0)};
     add_quad(stage.scene, "Wall", {0, 0, 2}, {0, 3, 2}, {0, 3, -2}, {0, 0, -2});
     put_quad_on_map(stage.scene.surfaces.back(), {2, 18}, {14, 26});
+    stage.scene.materials.push_back({});
+    stage.scene.materials[0].double_sided = true;  // or what is dark behind the wall would be where nobody looks
+    for (Surface& surface : stage.scene.surfaces) surface.material = 0;
     add_monitor(stage.scene, "Monitor_R", 0, {-2, 1, 0}, {0, 0, -0.6}, {0, 0.4, 0});
     put_quad_on_map(stage.scene.surfaces.back(), {22, 18}, {30, 26});
     return stage;

@@ -126,14 +126,21 @@ std::optional<double> MapJudge::truth(const SurfacePoint& point) const {
 }
 
 MapJudge::Average MapJudge::average(const Texels& texels, const Texel& texel, int side) const {
-    double light = 0, seen = 0;
+    double light = 0, seen = 0, lowest = 1, highest = 0;
+    bool is_whole = true;
     for (const TexelPlace& place : places_of(stage_.scene, bake_.atlas, texels, texel, side)) {
-        if (is_enclosed(stage_, place.point.triangle.surface, place.point.position)) continue;
+        if (is_enclosed(stage_, place.point.triangle.surface, place.point.position)) {
+            is_whole = false;
+            continue;
+        }
         const SubtractedIrradiance here = exact_.truth(place.point);
         light += place.area * here.unshadowed;
         seen += place.area * here.shadowed;
+        if (!(here.unshadowed > 0)) continue;
+        lowest = std::min(lowest, here.visibility());
+        highest = std::max(highest, here.visibility());
     }
-    return {light > 0 ? seen / light : 0, light};
+    return {light > 0 ? seen / light : 0, light, std::max(0.0, highest - lowest), is_whole};
 }
 
 Misses MapJudge::compare_texels(double error) const {
@@ -141,6 +148,7 @@ Misses MapJudge::compare_texels(double error) const {
         const Texels* texels = nullptr;
         const Texel* texel = nullptr;
         Average coarse, fine;
+        double cells = 0;  // what the finer grid may be off by
     };
     std::vector<Measured> all;
     for (const Texels& texels : texels_)
@@ -149,24 +157,27 @@ Misses MapJudge::compare_texels(double error) const {
             const auto& state = bake_.pages[static_cast<size_t>(texels.page)].state[0];
             if (state.pixels[texel.index] != TexelState::covered) continue;
             if (std::count(stage_.surfaces.begin(), stage_.surfaces.end(), surface) == 0) continue;
-            all.push_back({&texels, &texel, {}, {}});
+            all.push_back({&texels, &texel, {}, {}, 0});
         }
     if (is_slow_build) std::erase_if(all, [](const Measured& m) { return hash(m.texel->index) % 10 != 0; });
     parallel_for(all.size(), 16, [&](size_t i) {
-        // Finer where borders of solids or of shadows cross the texel.
-        for (int side = 4; side <= 16; side *= 2) {
+        // Finer where borders of solids or of shadows cross the texel: two grids may agree on them by chance.
+        for (const int side : {4, 16, 64}) {
             all[i].coarse = average(*all[i].texels, *all[i].texel, side);
             all[i].fine = average(*all[i].texels, *all[i].texel, 2 * side);
-            if (std::abs(all[i].fine.visibility - all[i].coarse.visibility) < error / 4) break;
+            // A border lies anywhere in its row of cells: half a cell of the finer grid.
+            all[i].cells = all[i].fine.spread / (4 * side);
+            if (all[i].fine.is_whole && all[i].cells < error) break;
         }
     });
     Misses misses;
-    for (const auto& [texels, texel, coarse, fine] : all) {
+    for (const auto& [texels, texel, coarse, fine, cells] : all) {
         if (!(coarse.light > 0) || !(fine.light > 0)) continue;
         const BakedPage& page = bake_.pages[static_cast<size_t>(texels->page)];
         const TexelSurface surface(stage_.scene, bake_.atlas, *texels, *texel);
         misses.add(static_cast<double>(page.map.visibility.pixels[texel->index].x), fine.visibility,
-                   error + std::abs(fine.visibility - coarse.visibility), place_of(stage_.scene, surface.center()));
+                   error + std::abs(fine.visibility - coarse.visibility) + cells,
+                   place_of(stage_.scene, surface.center()));
     }
     return misses;
 }
@@ -197,7 +208,7 @@ MapJudge::Tone MapJudge::tone_of(double visibility) {
     return visibility > 1 - rounding ? Tone::white : Tone::mixed;
 }
 
-Misses MapJudge::compare_plain_reads(size_t tries) const {
+Misses MapJudge::compare_plain_reads(size_t tries, double tolerance) const {
     constexpr double rounding = 1e-6;
     const std::vector<Image<Tone>> tones = this->tones();
     Misses misses;
@@ -213,7 +224,8 @@ Misses MapJudge::compare_plain_reads(size_t tries) const {
         if (!value || tone_of(*value) == Tone::mixed) continue;
         const Image<Tone>& page = tones[static_cast<size_t>(bake_.atlas.surfaces[s].page)];
         if (!is_plain(page, uv_at(bake_.atlas, where, weights), tone_of(*value))) continue;
-        misses.add(read_map(bake_, where, weights), std::round(*value), rounding, place_of(stage_.scene, point));
+        misses.add(read_map(bake_, where, weights), std::round(*value), std::max(rounding, tolerance),
+                   place_of(stage_.scene, point));
     }
     return misses;
 }

@@ -55,8 +55,9 @@ class MapJudge {
     Misses compare_texels(double error) const;
 
     /// Reads at random places that can be seen where all that can be seen of the texels that are read, and of those
-    /// around them, is exactly lit, or exactly dark: there a read must be that, to the rounding of a float.
-    Misses compare_plain_reads(size_t tries) const;
+    /// around them, is exactly lit, or exactly dark: there a read must be that, to the rounding of a float or to
+    /// `tolerance`.
+    Misses compare_plain_reads(size_t tries, double tolerance = 0) const;
 
     /// All measured texels of a judged surface against one value.
     Misses compare_with(uint32_t surface, double value, double tolerance) const;
@@ -67,7 +68,9 @@ class MapJudge {
   private:
     struct Average {
         double visibility = 0;
-        double light = 0;  ///< 0: nothing can be seen
+        double light = 0;      ///< 0: nothing can be seen
+        double spread = 0;     ///< of the visibility of what can be seen
+        bool is_whole = true;  ///< all of it can be seen
     };
     Average average(const Texels& texels, const Texel& texel, int side) const;
     /// What can be seen of a texel.

@@ -83,7 +83,7 @@ TEST(MinCut, IsTheCheapestOfAll) {
 TEST(Split, AJaggedBorderBecomesStraight) {
     constexpr int cells = 20;
     const FaceGraph graph = graph_of(sheet(cells, cells));
-    Seams seams(graph);
+    SeamFlags seams(graph);
     std::vector<uint32_t> number(graph.corners.size());
     const Patch patch = build_patch(graph, seams, by_rank(graph), number);
     Choice random{{1}};
@@ -109,7 +109,7 @@ TEST(Split, AJaggedBorderBecomesStraight) {
 TEST(Split, BothPartsOfAShapeHangTogether) {
     for (const Mesh& mesh : {test::torus(24, 12), test::uv_sphere(16, 8), test::terrain(16)}) {
         const FaceGraph graph = graph_of(mesh);
-        Seams seams(graph);
+        SeamFlags seams(graph);
         std::vector<uint32_t> number(graph.corners.size());
         std::vector<uint32_t> faces;
         for (const uint32_t f : by_rank(graph))
@@ -123,7 +123,7 @@ TEST(Split, BothPartsOfAShapeHangTogether) {
 TEST(Walk, GoesAroundWhatIsCutOut) {
     const FaceGraph graph = graph_of(test::arch(1, 100));
     std::vector<uint32_t> number(graph.corners.size());
-    const Patch patch = build_patch(graph, Seams(graph), by_rank(graph), number);
+    const Patch patch = build_patch(graph, SeamFlags(graph), by_rank(graph), number);
     const Walk there = walk_from({0}, patch.neighbours, centroids(patch));
     const Walk back = walk_from({there.last}, patch.neighbours, centroids(patch));
     // From end to end along 270 degrees of a cylinder, not across the gap: its length over the root of its area.

@@ -56,8 +56,8 @@ TEST(Cover, MonitorBehindTheFaceOfItsWallShines_M66) {
 }
 
 TEST(Cover, WhatIsFartherOrTiltedOrSmallBlocks_M66) {
-    Stage far;  // a fiftieth of the diameter
-    far.add_plate(0.04, {0.81, 0.46});
+    Stage far;  // a fortieth of the shorter side
+    far.add_plate(0.0225, {0.81, 0.46});
     EXPECT_EQ(far.cover().height, 0);
     EXPECT_LT(far.visibility(), 0.1);
     Stage tilted;

@@ -74,11 +74,11 @@ TEST(Follow, CountsWhatARayLeavesAgainstWhatItEnters_M65) {
     EXPECT_FALSE(in_room.follow({2, 0, 0}, right).comes_out);
 }
 
-TEST(Exposure, NothingCrossesSoNothingIsProbed_M65) {
+TEST(Exposure, NothingIsTouchedSoNothingIsProbed_M65) {
     Stage stage;
     test::add_box(stage.scene, "Floating", {0, 1, 0}, {1, 1, 1});
     stage.find();
-    EXPECT_EQ(stage.counts.crossed, 0u);
+    EXPECT_EQ(stage.counts.touched, 0u);
     EXPECT_EQ(stage.counts.probes, 0u);
     EXPECT_TRUE(std::ranges::all_of(stage.pages[0].texels,
                                     [](const Texel& t) { return t.free_pieces == Texel::all_pieces && !t.may_turn; }));
@@ -119,7 +119,7 @@ TEST(Exposure, BoxThatStandsOnTheFloorHidesWhatIsUnderIt_M65) {
     Stage stage;
     test::add_box(stage.scene, "Standing", {0, 0.25, 0}, {1, 0.5, 1});  // its sides lie on borders of texels
     stage.find();
-    EXPECT_EQ(stage.counts.inside, stage.counts.crossed > 0 ? 4u : 0u);
+    EXPECT_EQ(stage.counts.inside, 4u);
     test::add_box(stage.scene, "Other", {-1.3, 0.25, -1.3}, {0.2, 0.5, 0.2});  // this one crosses a texel
     stage.find();
     EXPECT_EQ(stage.counts.inside, 4u);
@@ -130,9 +130,17 @@ TEST(Exposure, SheetsEncloseNothing_M65) {
     Stage stage;
     test::add_quad(stage.scene, "Sheet", {0.1, 0, 1}, {0.1, 0, -1}, {0.1, 1, -1}, {0.1, 1, 1});
     test::add_quad(stage.scene, "Other", {-1.1, 0, -1}, {0.1, 0, -1}, {0.1, 1, -1}, {-1.1, 1, -1});
+    Material material;
+    material.double_sided = true;
+    stage.scene.materials.push_back(material);
+    for (Surface& surface : stage.scene.surfaces) surface.material = 0;
     stage.find();
     EXPECT_GT(stage.counts.crossed, 0u);
     EXPECT_EQ(stage.counts.inside + stage.counts.partly, 0u) << "two walls without thickness, seen from either side";
+    stage.scene.materials[0].double_sided = false;
+    stage.find();
+    EXPECT_GT(stage.counts.inside + stage.counts.partly, 0u) << "nobody sees the backs, nor what is dark close behind";
+    EXPECT_LT(stage.counts.inside, 4u);
 }
 
 TEST(Exposure, WhatLightReachesIsNotInside_M65) {

@@ -20,7 +20,7 @@ Patch patch_of(const Mesh& mesh) {
     const Scene scene = test::scene_of({mesh});
     const FaceGraph graph = build_face_graph(scene.surfaces[0]);
     std::vector<uint32_t> number(graph.corners.size());
-    return build_patch(graph, Seams(graph), by_rank(graph), number);
+    return build_patch(graph, SeamFlags(graph), by_rank(graph), number);
 }
 
 /// A cap of the unit sphere around the z axis, of half angle `t`.

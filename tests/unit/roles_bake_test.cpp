@@ -172,9 +172,9 @@ TEST(RolesOfBakes, NothingHasEdgesOrPlanesThatDoesNotCast) {
 TEST(RolesOfBakes, NoMonitorReachesWhatDoesNotReceive) {
     Scene scene = room_with("Box");
     const BakeSettings settings = small();
-    EXPECT_GT(find_reach(scene, prepare(scene, settings.unwrap, {}), 0, settings.gather)[box_surface].facing, 0);
+    EXPECT_GT(find_reach(scene, prepare(scene, settings, {}), 0, settings.gather)[box_surface].facing, 0);
     apply_roles(scene, {.objects = {{"Box", receives(false)}}});
-    const auto reach = find_reach(scene, prepare(scene, settings.unwrap, {}), 0, settings.gather);
+    const auto reach = find_reach(scene, prepare(scene, settings, {}), 0, settings.gather);
     EXPECT_EQ(reach[box_surface].facing, 0);
     EXPECT_EQ(reach[box_surface].blocks.seen, 0u);
     EXPECT_GT(reach[floor_surface].facing, 0.9);
