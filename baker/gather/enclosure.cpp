@@ -76,13 +76,22 @@ bool EnclosureJudge::is_single_sided(uint32_t surface) const {
 }
 
 Enclosure EnclosureJudge::judge(const SurfacePoint& point, double texel_size, uint64_t key) const {
+    return judge(point, {texel_size, key, false});
+}
+
+Enclosure EnclosureJudge::judge_back(const SurfacePoint& turned_point, double texel_size, uint64_t key) const {
+    return judge(turned_point, {texel_size, key, true});
+}
+
+Enclosure EnclosureJudge::judge(const SurfacePoint& point, const Probe& probe) const {
+    const auto& [texel_size, key, meets_sheets] = probe;
     if (sees_monitor(point, key)) return Enclosure::free;
     const Vec3 origin = rays_.ray_origin(point);
     const Scrambling seeds = scrambling(hash(key, samplers_.size()));
     uint32_t outside = 0, backs = 0;
     double nearest = INFINITY;
     for (uint32_t i = 0; i < probe_rays; ++i) {
-        const Way way = rays_.follow(origin, probe_direction(point.geometric_normal, i, seeds));
+        const Way way = rays_.follow(origin, probe_direction(point.geometric_normal, i, seeds), meets_sheets);
         const bool is_enclosed =
             way.comes_out || (is_closed_ && way.meets_nothing) || way.distance < crevice * texel_size;
         if (!is_enclosed) ++outside;

@@ -25,11 +25,20 @@ class EnclosureJudge {
     /// Of the space at the front of `point`. `texel_size`, metres, is what counts as close by; `key` decides the rays.
     Enclosure judge(const SurfacePoint& point, double texel_size, uint64_t key) const;
 
+    /// The same for the back of a two-sided surface: what is closed encloses it, though it is two-sided.
+    Enclosure judge_back(const SurfacePoint& turned_point, double texel_size, uint64_t key) const;
+
     /// Are monitors in free space by the same measure? Where normals point out of the room they are not, and
     /// nothing can be judged.
     bool is_reliable() const { return is_reliable_; }
 
   private:
+    struct Probe {
+        double texel_size = 0;
+        uint64_t key = 0;
+        bool meets_sheets = false;
+    };
+    Enclosure judge(const SurfacePoint& point, const Probe& probe) const;
     void look_from_monitors();
     bool sees_monitor(const SurfacePoint& point, uint64_t key) const;
     bool is_single_sided(uint32_t surface) const;
@@ -38,7 +47,8 @@ class EnclosureJudge {
     const RayScene& rays_;
     std::vector<MonitorSampler> samplers_;  // of Scene::monitors
     bool is_reliable_ = true;
-    bool is_closed_ = false;  // walks from the monitors do not find out of the scene: who sees out of it is outside the room
+    // No walk from the monitors finds out of the scene: who sees out of it is outside of the room.
+    bool is_closed_ = false;
 };
 
 }  // namespace surimi

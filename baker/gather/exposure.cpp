@@ -119,7 +119,7 @@ struct Judging {
         const bool is_called_for = std::ranges::any_of(panels, [&](const std::vector<Panel>& of_monitor) {
             return !(unshadowed_at(of_monitor, rays, point) > 0) && unshadowed_at(of_monitor, rays, back) > 0;
         });
-        return is_called_for && judge.judge(back, texel_size, hash(key, 1)) != Enclosure::enclosed;
+        return is_called_for && judge.judge_back(back, texel_size, hash(key, 1)) != Enclosure::enclosed;
     }
 
     /// As Texel::free_pieces; adds to `probes`. What is free of a sixteenth of the texel or less says too little of

@@ -168,7 +168,8 @@ Texels subdivided_row(const Texels& texels, const Numbers& row, const Atlas& fin
                         result.triangles.push_back(texels.triangles_of(texel)[k]);
                 const auto count = static_cast<uint32_t>(result.triangles.size()) - first;
                 if (count > 0)
-                    result.texels.push_back({index + x, texel.chart, first, count, texel.free_pieces, texel.may_turn, texel.is_touched});
+                    result.texels.push_back(
+                        {index + x, texel.chart, first, count, texel.free_pieces, texel.may_turn, texel.is_touched});
             }
         }
     }

@@ -255,14 +255,15 @@ std::array<Vec3, 3> RayScene::corners_of(const TriangleRef& triangle) const {
     return corners;
 }
 
-Way RayScene::follow(const Vec3& origin, const Vec3& direction) const {
+Way RayScene::follow(const Vec3& origin, const Vec3& direction, bool meets_sheets) const {
     constexpr int most_faces = 64;  // a ray that has met so many is taken to be outside
     Way way;
     int exits = 0;  // less entries
     float start = 0;
     for (int i = 0; i < most_faces && !way.comes_out; ++i) {
         RTCRayHit query;
-        set_ray(query.ray, origin - state_->center, direction, INFINITY, solid_mask);
+        set_ray(query.ray, origin - state_->center, direction, INFINITY,
+                meets_sheets ? solid_mask | sheet_mask : solid_mask);
         query.ray.tnear = start;
         query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
         query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;

@@ -97,8 +97,9 @@ class RayScene {
     /// The corners of a triangle as rays meet it, monitors' panels among them, relative to center().
     std::array<Vec3, 3> corners_of(const TriangleRef& triangle) const;
 
-    /// Follows a ray through everything that casts but monitors, alpha-masked and two-sided surfaces.
-    Way follow(const Vec3& origin, const Vec3& direction) const;
+    /// Follows a ray through everything that casts but monitors and, unless `meets_sheets`, alpha-masked and two-sided
+    /// surfaces.
+    Way follow(const Vec3& origin, const Vec3& direction, bool meets_sheets = false) const;
 
     /// Nearest surface along a ray, of all that are held (see Attach); alpha-masked holes are not hit.
     std::optional<Hit> closest_hit(const Vec3& origin, const Vec3& direction) const;
