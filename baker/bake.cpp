@@ -73,6 +73,8 @@ Bake bake(const Scene& scene, const BakeSettings& settings, const Progress& prog
     Preparation preparation = prepare(scene, settings, progress);
     GatherSettings gather_settings = settings.gather;
     gather_settings.band_rows = rows_within_memory(scene, preparation, settings);
+    PostSettings post_settings = settings.post;
+    post_settings.inside_rings = 1 << settings.unwrap.mips;  // texels that the coarsest level's reads meet
 
     Bake result;
     result.costs = preparation.costs;
@@ -96,7 +98,7 @@ Bake bake(const Scene& scene, const BakeSettings& settings, const Progress& prog
             result.pages[p].irradiance[static_cast<size_t>(monitor.channel)] = as_image(texels, gathered.estimates);
         }
         stopwatch.finish("light from " + monitor.name, evidence.statistics.rays());
-        fill(scene, preparation.atlas, preparation.texels, channels, settings.post);
+        fill(scene, preparation.atlas, preparation.texels, channels, post_settings);
         // Bilinear reads at a border meet the first ring of the gutter, so that seams are stitched with it.
         for (size_t p = 0; p < channels.size(); ++p) grow_gutters(preparation.texels[p], channels[p], 1);
         stopwatch.finish("fill " + monitor.name);

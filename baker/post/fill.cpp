@@ -129,6 +129,16 @@ std::vector<float> surface_means(const Atlas& atlas, const std::vector<Page>& pa
     return means;
 }
 
+/// What lies deep inside other geometry is dark.
+void darken_insides(Page& page, int rings) {
+    const auto& state = page.channel.state.pixels;
+    std::vector<uint8_t> is_covered(state.size());
+    for (size_t i = 0; i < state.size(); ++i) is_covered[i] = state[i] == TexelState::covered;
+    const std::vector<uint8_t> is_near = spread(std::move(is_covered), page.texels.width, rings);
+    for (const Texel& texel : page.texels.texels)
+        if (state[texel.index] == TexelState::inside && !is_near[texel.index]) page.give(texel, 0);
+}
+
 }  // namespace
 
 void fill(const Scene& scene, const Atlas& atlas, std::span<const Texels> pages, std::span<Channel> channels,
@@ -141,6 +151,7 @@ void fill(const Scene& scene, const Atlas& atlas, std::span<const Texels> pages,
         page.grow_in_charts();
         for (const Texel& texel : page.texels.texels)
             if (page.owner[texel.index] == no_chart) page.give(texel, means[atlas.charts[texel.chart].surface]);
+        darken_insides(page, std::min(settings.inside_rings, 255));
     }
 }
 

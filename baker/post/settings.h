@@ -6,6 +6,8 @@ namespace surimi {
 
 struct PostSettings {
     bool fills_in_space = true;  ///< texels without a value take it from what is near them in the world
+    int inside_rings = 1;        ///< of texels inside other geometry beside covered ones that take values from around
+                                 ///< them, as bilinear reads meet them; deeper ones stay at 0, which they are
     bool stitches_seams = true;  ///< both sides of an edge that charts, surfaces or pages share are made to agree
 };
 

@@ -203,6 +203,9 @@ for line in 'glass = "clear"' 'node = "Sofa*"' 'casts = false' 'exclude = true';
 done
 check diff <("$surimi" bake "$theater" --config "$work/effective.toml" --print-config) "$work/effective.toml"
 expect 0 'glass = "block"' "$surimi" bake "$theater" --config "$work/roles.toml" --glass block --print-config
+expect 2 'there is no fix "acne"' "$surimi" bake "$theater" --without acne
+expect 0 'without = ["inside", "seams"]' "$surimi" bake "$theater" --without seams --without inside --print-config
+expect 0 'without = ["fill"]' env SURIMI_WITHOUT=fill "$surimi" bake "$theater" --print-config
 expect 0 'glass = "clear"' env SURIMI_GLASS=clear "$surimi" bake "$theater" --print-config
 expect 0 "block light like walls" "$surimi" inspect "$theater"
 expect 0 "casts no shadow (glass)" "$surimi" inspect "$theater" --glass clear

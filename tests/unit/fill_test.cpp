@@ -63,8 +63,8 @@ struct Sheets {
             }
     }
     float at(int x, int y, int page = 0) const { return channels[static_cast<size_t>(page)].visibility.at(x, y); }
-    void fill(bool in_space = true) {
-        surimi::fill(scene, atlas, pages, channels, {.fills_in_space = in_space, .stitches_seams = false});
+    void fill(bool in_space = true, int inside_rings = 255) {
+        surimi::fill(scene, atlas, pages, channels, {.fills_in_space = in_space, .inside_rings = inside_rings});
     }
 };
 
@@ -226,11 +226,25 @@ TEST(Fill, AnUnlitSurfaceIsOneNotZero) {
     EXPECT_EQ(sheets.at(4, 4), 0.25f);
 }
 
+TEST(Fill, DeepInsideOtherGeometryIsDark) {
+    Sheets sheets = two_charts(0);
+    sheets.set({20, 12, 2, 8}, TexelState::covered, 0.75f);
+    sheets.set({22, 12, 6, 8}, TexelState::inside, 1.f);
+    for (const int rings : {1, 2}) {
+        Sheets filled = sheets;
+        filled.fill(true, rings);
+        for (int ring = 0; ring < 4; ++ring) {
+            EXPECT_NEAR(filled.at(22 + ring, 16), ring < rings ? 0.75f : 0.f, 1e-6f) << ring;
+            EXPECT_EQ(filled.channels[0].state.at(22 + ring, 16), TexelState::inside);
+        }
+    }
+}
+
 TEST(Fill, AMapWithoutASingleMeasuredTexelIsOne) {
     for (const bool in_space : {true, false}) {
         Sheets sheets = two_charts(1);
         sheets.set({0, 0, 8, 8}, TexelState::unlit, 0.f);
-        sheets.set({20, 12, 8, 8, 1}, TexelState::inside, 0.f);
+        sheets.set({20, 12, 8, 8, 1}, TexelState::unlit, 0.f);
         sheets.fill(in_space);
         for (const Channel& channel : sheets.channels)
             for (const float v : channel.visibility.pixels) EXPECT_EQ(v, 1.f);
