@@ -122,16 +122,17 @@ struct Judging {
         return is_called_for && judge.judge_back(back, texel_size, hash(key, 1)) != Enclosure::enclosed;
     }
 
-    /// As Texel::free_pieces; adds to `probes`. What is free of a sixteenth of the texel or less says too little of
+    /// Writes what is free of the texel; adds to `probes`. What is free of a sixteenth of it or less says too little of
     /// what is around it.
-    uint32_t free_pieces_of(TexelSurface surface, uint64_t key, size_t& probes) const {
+    void find_free_pieces(TexelSurface surface, uint64_t key, Texel& texel, size_t& probes) const {
         constexpr double least_share = 1.0 / 16;
         const double texel_size = std::sqrt(surface.area());
         const SurfacePoint center = surface.center();
         const TexelSurface::CutResult cut = cut_where_hidden(rays, surface);
         if (!cut.is_cut || !cut.is_whole) {
             ++probes;
-            return judge.judge(center, texel_size, key) == Enclosure::enclosed ? 0 : Texel::all_pieces;
+            texel.free_pieces = judge.judge(center, texel_size, key) == Enclosure::enclosed ? 0 : Texel::all_pieces;
+            return;
         }
         uint32_t free = 0;
         double share = 0;
@@ -144,8 +145,9 @@ struct Judging {
             share += surface.share_of(piece);
         }
         probes += count;
-        if (free == (1u << count) - 1) return Texel::all_pieces;
-        return share > least_share ? free : 0;
+        texel.is_mostly_free = share >= 0.5;
+        if (!(share > least_share)) free = 0;
+        texel.free_pieces = free == (1u << count) - 1 ? Texel::all_pieces : free;
     }
 };
 
@@ -243,7 +245,7 @@ class BlockJudge {
     }
 
     void judge_touched(Texel& texel) {
-        texel.free_pieces = judging_.free_pieces_of(surface_of(texel), key(texel), probes_);
+        judging_.find_free_pieces(surface_of(texel), key(texel), texel, probes_);
         if (!texel.is_inside()) judge_back(texel);
     }
 
@@ -322,8 +324,7 @@ void expose_parts(const Scene& scene, const Atlas& fine, const RayScene& rays, T
         Texel& texel = subtexels.texels[i];
         if (!is_partial(texel)) return;
         size_t probes = 0;
-        texel.free_pieces =
-            judging.free_pieces_of(TexelSurface(scene, fine, subtexels, texel), key_of(subtexels, texel), probes);
+        judging.find_free_pieces(TexelSurface(scene, fine, subtexels, texel), key_of(subtexels, texel), texel, probes);
     });
 }
 

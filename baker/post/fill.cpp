@@ -129,12 +129,14 @@ std::vector<float> surface_means(const Atlas& atlas, const std::vector<Page>& pa
     return means;
 }
 
-/// What lies deep inside other geometry is dark.
+/// What lies deep inside other geometry is dark, and beside a texel of which less than half can be seen: reads there
+/// that can be seen do not reach across the texel's centre.
 void darken_insides(Page& page, int rings) {
     const auto& state = page.channel.state.pixels;
-    std::vector<uint8_t> is_covered(state.size());
-    for (size_t i = 0; i < state.size(); ++i) is_covered[i] = state[i] == TexelState::covered;
-    const std::vector<uint8_t> is_near = spread(std::move(is_covered), page.texels.width, rings);
+    std::vector<uint8_t> is_read(state.size());
+    for (const Texel& texel : page.texels.texels)
+        is_read[texel.index] = state[texel.index] == TexelState::covered && texel.is_mostly_free;
+    const std::vector<uint8_t> is_near = spread(std::move(is_read), page.texels.width, rings);
     for (const Texel& texel : page.texels.texels)
         if (state[texel.index] == TexelState::inside && !is_near[texel.index]) page.give(texel, 0);
 }

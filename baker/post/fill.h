@@ -19,7 +19,7 @@ namespace surimi {
 /// 2. what grows there through the texel's own chart from texels that are covered or have the first;
 /// 3. the mean of the surface's covered texels;
 /// 4. 1, nothing known to block, where the monitor lights no texel of the surface.
-/// Texels inside other geometry more than settings.inside_rings from any covered one are 0 instead.
+/// Texels inside other geometry more than settings.inside_rings from any covered one that is mostly free are 0 instead.
 /// With settings.fills_in_space off, 2 to 4 alone. Means are of measured values and rings of growth are
 /// double-buffered, so neither scan order nor the number of threads shows. Texels outside the charts are left to
 /// grow_gutters().

@@ -12,7 +12,7 @@
 
 namespace surimi {
 
-/// One texel that at least one triangle touches. The last three are for find_exposures() to say.
+/// One texel that at least one triangle touches. The last four are for find_exposures() to say.
 struct Texel {
     uint32_t index = 0;  ///< y * width + x; with the page, it keys the random numbers
     uint32_t chart = 0;
@@ -22,8 +22,9 @@ struct Texel {
     static constexpr uint32_t all_pieces = 0xffffff;
     /// Bit i: piece i of its surface, cut at contacts, is not inside other geometry. all_pieces: nothing of it is.
     uint32_t free_pieces = all_pieces;
-    bool may_turn = false;    ///< its back is lit by a monitor that cannot light its front
-    bool is_touched = false;  ///< other surfaces touch it or come through it
+    bool may_turn = false;       ///< its back is lit by a monitor that cannot light its front
+    bool is_touched = false;     ///< other surfaces touch it or come through it
+    bool is_mostly_free = true;  ///< at least half of it is not inside other geometry
 
     bool is_inside() const { return free_pieces == 0; }
 };
