@@ -81,17 +81,20 @@ std::vector<BoxedTriangle> triangles_around(const RayScene& rays, std::span<cons
 void find_contacts(const RayScene& rays, std::span<const BoxedTriangle> triangles, const TexelSurface& surface,
                    double slab, std::vector<TexelSurface::Crossing>& lines) {
     lines.clear();
-    if (triangles.empty()) return;
+    if (triangles.empty() || surface.pieces().size() > most_parts_of_texel) return;
     Box box;
     surface.for_each_corner([&](const SurfacePoint& corner) {
         const Vec3 place = rays.ray_origin(corner) - rays.center();
         box.add(place);
         if (slab > 0) box.add(place + slab * corner.geometric_normal);
     });
-    for (size_t i = 0; i < surface.pieces().size(); ++i) {
+    thread_local std::vector<const BoxedTriangle*> near;
+    near.clear();
+    for (const BoxedTriangle& triangle : triangles)
+        if (meet(triangle.low, triangle.high, box)) near.push_back(&triangle);
+    for (size_t i = 0; i < surface.pieces().size() && !near.empty(); ++i) {
         const LiftedPiece piece(rays, surface, i);
-        for (const BoxedTriangle& triangle : triangles)
-            if (meet(triangle.low, triangle.high, box)) add_contact(piece, triangle, slab, rays.center(), lines);
+        for (const BoxedTriangle* triangle : near) add_contact(piece, *triangle, slab, rays.center(), lines);
     }
 }
 

@@ -25,6 +25,7 @@ std::vector<BoxedTriangle> triangles_around(const RayScene& rays, std::span<cons
 
 /// The segments in which the triangles cross the places that rays from the texel start from (M57), into `lines`, and
 /// some that pass close by; and edges that lie above them by less than `slab`, metres. `triangles`: all that come near.
+/// A texel of more pieces than it may be cut in has none.
 void find_contacts(const RayScene& rays, std::span<const BoxedTriangle> triangles, const TexelSurface& surface,
                    double slab, std::vector<TexelSurface::Crossing>& lines);
 
