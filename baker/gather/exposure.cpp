@@ -109,6 +109,7 @@ struct Judging {
     const RayScene& rays;
     const EnclosureJudge& judge;
     std::vector<std::vector<Panel>> panels;  // by monitor
+    int factor = 1;                          // texels are so much larger than those that are judged
 
     bool is_two_sided(const Texel& texel) const {
         return scene.surfaces[atlas.charts[texel.chart].surface].is_two_sided;
@@ -126,7 +127,7 @@ struct Judging {
     /// what is around it.
     void find_free_pieces(TexelSurface surface, uint64_t key, Texel& texel, size_t& probes) const {
         constexpr double least_share = 1.0 / 16;
-        const double texel_size = std::sqrt(surface.area());
+        const double texel_size = factor * std::sqrt(surface.area());
         const SurfacePoint center = surface.center();
         const TexelSurface::CutResult cut = cut_where_hidden(rays, surface);
         if (!cut.is_cut || !cut.is_whole) {
@@ -299,7 +300,7 @@ ExposureCounts find_exposures(const Scene& scene, const Atlas& atlas, const RayS
             "other geometry cannot be told; if the room's faces point outwards, flip them");
         return counts;
     }
-    Judging judging{scene, atlas, rays, judge, {}};
+    Judging judging{scene, atlas, rays, judge, {}, 1};
     for (const Monitor& monitor : scene.monitors) judging.panels.push_back(panels_of(monitor, rays));
     for (size_t p = 0; p < pages.size(); ++p) {
         std::vector<size_t> probes(blocks[p].count(), 0);
@@ -315,11 +316,11 @@ ExposureCounts find_exposures(const Scene& scene, const Atlas& atlas, const RayS
     return counts;
 }
 
-void expose_parts(const Scene& scene, const Atlas& fine, const RayScene& rays, Texels& subtexels) {
+void expose_parts(const Scene& scene, const Atlas& fine, const RayScene& rays, Texels& subtexels, int factor) {
     const auto is_partial = [](const Texel& t) { return t.free_pieces != Texel::all_pieces && !t.is_inside(); };
     if (std::ranges::none_of(subtexels.texels, is_partial)) return;
     const EnclosureJudge judge(scene, rays);
-    const Judging judging{scene, fine, rays, judge, {}};
+    const Judging judging{scene, fine, rays, judge, {}, factor};
     parallel_for(subtexels.texels.size(), 64, [&](size_t i) {
         Texel& texel = subtexels.texels[i];
         if (!is_partial(texel)) return;

@@ -27,8 +27,9 @@ struct ExposureCounts {
 /// group of a tile says it for all. Two-sided surfaces' texels may turn where their back is not enclosed.
 ExposureCounts find_exposures(const Scene& scene, const Atlas& atlas, const RayScene& rays, std::span<Texels> pages);
 
-/// Judges the subtexels anew whose texel was found to be partly inside, and no others.
-void expose_parts(const Scene& scene, const Atlas& fine, const RayScene& rays, Texels& subtexels);
+/// Judges the subtexels anew whose texel was found to be partly inside, and no others. `factor`: of the subdivision;
+/// what counts as close by is a matter of texels.
+void expose_parts(const Scene& scene, const Atlas& fine, const RayScene& rays, Texels& subtexels, int factor);
 
 /// One page and what stands around it.
 struct Receivers {

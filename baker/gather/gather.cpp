@@ -254,7 +254,7 @@ Gathered gather(const Scene& scene, const Atlas& atlas, const Texels& texels, co
         if (fine) {
             const Rows sub{side * rows.begin, side * rows.end};
             Texels subtexels = subdivided(around, *fine, Bands::rows_around(sub, fine->height));
-            expose_parts(scene, *fine, rays, subtexels);
+            expose_parts(scene, *fine, rays, subtexels, side);
             part = bands.next(subtexels, sub, of_band);
             const Texels own = texels_in(subtexels, sub);
             part.estimates = downsample({scene, *fine, own, rays}, texels_in(around, rows), part.estimates);

@@ -71,6 +71,15 @@ double jump(std::span<const Channel> pages, const SeamSample& sample) {
     return difference;
 }
 
+bool is_seen(std::span<const Channel> pages, const SeamSample& sample) {
+    const size_t size = pages[0].state.pixels.size();
+    std::array<double, 2> inside{};  // of the first side and of the second
+    for (size_t i = 0; i < sample.count; ++i)
+        if (pages[sample.texels[i] / size].state.pixels[sample.texels[i] % size] == TexelState::inside)
+            inside[sample.weights[i] > 0 ? 0 : 1] += std::abs(sample.weights[i]);
+    return std::max(inside[0], inside[1]) < 0.5;
+}
+
 Jumps measure_jumps(const Atlas& atlas, const Seams& seams, std::span<const Channel> pages) {
     constexpr double places_a_texel = 7;  // no multiple of the 2 of the solver
     const size_t count = seams.pieces.size();
@@ -81,7 +90,9 @@ Jumps measure_jumps(const Atlas& atlas, const Seams& seams, std::span<const Chan
             const SeamPiece& piece = seams.pieces[p];
             const double places = std::max(1.0, std::ceil(places_a_texel * texels_along(piece)));
             for (double i = 0; i < places; ++i) {
-                const double difference = jump(pages, seam_sample(atlas, piece, (i + 0.5) / places));
+                const SeamSample sample = seam_sample(atlas, piece, (i + 0.5) / places);
+                if (!is_seen(pages, sample)) continue;
+                const double difference = jump(pages, sample);
                 found[begin / grain].push_back(
                     {static_cast<float>(std::abs(difference)), static_cast<float>(piece.length / places)});
             }

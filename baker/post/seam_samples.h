@@ -34,14 +34,18 @@ inline double visibility_of(std::span<const Channel> pages, uint64_t texel) {
 /// By how much the sides differ, with sign.
 double jump(std::span<const Channel> pages, const SeamSample& sample);
 
+/// False where half of what one side reads is inside other geometry: what stands on the seam hides it, and the sides
+/// need not agree.
+bool is_seen(std::span<const Channel> pages, const SeamSample& sample);
+
 /// How far the two sides of seams are apart, over places weighed by the length of seam that they stand for.
 struct Jumps {
     double largest = 0;
     double percentile_99 = 0;
 };
 
-/// Of one monitor on all pages, at about 7 places a texel: denser than those at which `stitch` makes the sides agree,
-/// and mostly between them.
+/// Of one monitor on all pages where seams can be seen, at about 7 places a texel: denser than those at which `stitch`
+/// makes the sides agree, and mostly between them.
 Jumps measure_jumps(const Atlas& atlas, const Seams& seams, std::span<const Channel> pages);
 
 }  // namespace surimi

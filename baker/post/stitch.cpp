@@ -46,6 +46,7 @@ BoundedLeastSquares problem_of(const Atlas& atlas, const Seams& seams, std::span
         const double step = 2 * texels_along(piece) / static_cast<double>(steps);  // in half texels
         for (size_t i = 0; i <= steps; ++i) {
             const SeamSample sample = seam_sample(atlas, piece, static_cast<double>(i) / static_cast<double>(steps));
+            if (!is_seen(pages, sample)) continue;
             const double share = i == 0 || i == steps ? 0.5 : 1;
             add_equation(problem, part, sample, jump(pages, sample), std::sqrt(seam_weight * step * share));
         }

@@ -43,7 +43,7 @@ std::vector<uint64_t> find_unknowns(const Atlas& atlas, const Seams& seams, std:
             for (size_t i = 0; i <= steps; ++i) {
                 const SeamSample sample =
                     seam_sample(atlas, seams.pieces[p], static_cast<double>(i) / static_cast<double>(steps));
-                if (!(std::abs(jump(pages, sample)) > rounding)) continue;
+                if (!(std::abs(jump(pages, sample)) > rounding) || !is_seen(pages, sample)) continue;
                 for (size_t k = 0; k < sample.count; ++k)
                     if (!is_empty(pages, sample.texels[k])) texels.push_back(sample.texels[k]);
             }

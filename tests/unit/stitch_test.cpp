@@ -91,6 +91,22 @@ void expect_stitched(const std::vector<Patch>& patches, bool is_one_surface) {
     EXPECT_NEAR(report.metres, 1, 1e-9);
 }
 
+TEST(Stitch, WhereOneSideIsInsideOtherGeometryTheyNeedNotAgree_M60) {
+    const auto made = make_patches(pair_of_squares(), false, 80);
+    auto before = paint(made, ramp);
+    for (TexelState& state : before[0].state.pixels) {
+        const auto index = static_cast<size_t>(&state - before[0].state.pixels.data());
+        if (state == TexelState::covered && index % 80 >= 28) state = TexelState::inside;  // the right square
+    }
+    auto pages = before;
+    const StitchReport report = stitch(made.atlas, find_seams(made.scene, made.atlas), pages);
+    EXPECT_EQ(report.pieces, 1u);
+    EXPECT_EQ(report.texels, 0u);
+    EXPECT_EQ(report.before.largest, 0) << "none of it can be seen";
+    for (size_t t = 0; t < pages[0].visibility.pixels.size(); ++t)
+        EXPECT_TRUE(is_same(before[0].visibility.pixels[t], pages[0].visibility.pixels[t]));
+}
+
 TEST(Stitch, ChartsSurfacesAndPagesAgreeToACodeAndOtherTexelsKeepTheirBits_M60) {
     auto patches = pair_of_squares();
     expect_stitched(patches, true);
