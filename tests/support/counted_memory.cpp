@@ -27,6 +27,12 @@ void* operator new(size_t bytes) {
     return block;
 }
 
+void* operator new(size_t bytes, const std::nothrow_t&) noexcept {
+    void* block = std::malloc(bytes > 0 ? bytes : 1);
+    if (block) add(malloc_usable_size(block));
+    return block;
+}
+
 void operator delete(void* block) noexcept {
     if (block) held -= malloc_usable_size(block);
     std::free(block);
