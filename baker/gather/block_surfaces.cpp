@@ -52,17 +52,15 @@ BlockSurfaces block_surfaces(const MonitorSetup& setup, const Atlas& atlas, cons
     block.texels.reserve(members.size());
     block.grid.fill(-1);
     const auto width = static_cast<uint32_t>(texels.width);
-    const auto page_size = static_cast<uint64_t>(texels.width) * static_cast<uint64_t>(texels.height);
     std::vector<Vec3> places;
     Vec3 normals(0);
     double largest = 0;
     for (const uint32_t member : members) {
         const Texel& texel = texels.texels[member];
         const TexelSurface& surface = block.texels.emplace_back(exposed_surface(receivers, texel, setup.panels));
-        const size_t cell = size_t{texel.index / width % tile_size} * tile_size + texel.index % width % tile_size;
-        block.grid[cell] = static_cast<int16_t>(block.centers.size());
+        block.grid[cell_in_tile(texel.index, width)] = static_cast<int16_t>(block.centers.size());
         block.centers.push_back(surface.center());
-        block.keys.push_back(static_cast<uint64_t>(texels.page) * page_size + texel.index);
+        block.keys.push_back(texels.key_of(texel));
         surface.for_each_corner([&](const SurfacePoint& corner) {
             places.push_back(rays.ray_origin(corner) - rays.center());
             normals += corner.geometric_normal;

@@ -2,6 +2,7 @@
 // Texels of one chart in tiles of the map: what lies close together is judged together.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -11,6 +12,11 @@
 namespace surimi {
 
 inline constexpr int tile_size = 8;  ///< texels a side; measured, see docs/decisions.md
+
+/// Where the texel of this index lies in its tile: y * tile_size + x.
+constexpr size_t cell_in_tile(uint32_t index, uint32_t width) {
+    return size_t{index / width % tile_size} * tile_size + index % width % tile_size;
+}
 
 struct Blocks {
     std::vector<uint32_t> order;   ///< indices into Texels::texels, block by block; in a block as in Texels

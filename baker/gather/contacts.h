@@ -11,7 +11,8 @@
 
 namespace surimi {
 
-/// A texel is cut in so many pieces at most: each is a point at least.
+/// A texel is cut in so many pieces at most: each is a point at least. Texels of more are left to rays: the few that
+/// most light comes to could go unseen.
 inline constexpr size_t most_parts_of_texel = 24;
 
 /// Relative to RayScene::center().

@@ -86,8 +86,7 @@ std::vector<std::string> describe_covers(const Scene& scene, const RayScene& ray
                                            : scene.surfaces[highest.surface].name;
         lines.push_back(
             fmt::format("monitor {} is covered by {}, {:.2g} m in front of it: what lies so close does not block its "
-                        "light (--without "
-                        "covers: it does)",
+                        "light (--without covers: it does)",
                         scene.monitors[m].name, name, highest.height));
     }
     return lines;

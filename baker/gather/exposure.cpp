@@ -154,8 +154,7 @@ struct Judging {
 
 /// Of the random numbers of a texel's probes.
 uint64_t key_of(const Texels& texels, const Texel& texel) {
-    const auto page_size = static_cast<uint64_t>(texels.width) * static_cast<uint64_t>(texels.height);
-    return hash(0x696e73696465, static_cast<uint64_t>(texels.page) * page_size + texel.index);
+    return hash(0x696e73696465, texels.key_of(texel));
 }
 
 /// The texels of one block, judged.
@@ -165,10 +164,8 @@ class BlockJudge {
         : judging_(judging), texels_(texels), members_(members) {
         grid_.fill(-1);
         const auto width = static_cast<uint32_t>(texels.width);
-        for (size_t i = 0; i < members.size(); ++i) {
-            const uint32_t index = texels.texels[members[i]].index;
-            grid_[index / width % tile_size * tile_size + index % width % tile_size] = static_cast<int16_t>(i);
-        }
+        for (size_t i = 0; i < members.size(); ++i)
+            grid_[cell_in_tile(texels.texels[members[i]].index, width)] = static_cast<int16_t>(i);
     }
 
     /// Returns the number of places judged.
@@ -253,7 +250,7 @@ class BlockJudge {
     const Judging& judging_;
     Texels& texels_;
     std::span<const uint32_t> members_;
-    std::array<int16_t, tile_size * tile_size> grid_{};
+    TileGrid grid_{};
     size_t probes_ = 0;
 };
 

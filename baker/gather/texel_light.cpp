@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "baker/gather/contacts.h"
 #include "runtime/base/random.h"
 
 namespace surimi {
@@ -56,9 +57,6 @@ class Average {
     double lowest_ = 1, highest_ = 0;  // visibility of a piece's points
 };
 
-/// Texels of more pieces than this are left to rays: the few that most light comes to could go unseen.
-constexpr size_t most_pieces = 24;
-
 /// Cells a side of a piece that has this share of a texel with side x side cells. Pieces that matter get more with
 /// every step, or two steps would agree about them whatever they are like.
 int cells_of(double share, int side) {
@@ -68,7 +66,7 @@ int cells_of(double share, int side) {
 
 /// Points that average_over_cells takes.
 double points_of(const TexelSurface& surface, int side) {
-    if (surface.pieces().size() > most_pieces) return side * side;
+    if (surface.pieces().size() > most_parts_of_texel) return side * side;
     double sum = 0;
     for (const TexelSurface::Piece& piece : surface.pieces()) {
         const int cells = cells_of(surface.share_of(piece), side);
@@ -124,7 +122,7 @@ TexelLight average_over_cells(const MonitorSetup& setup, const BlockSight& sight
     const auto add = [&](const SurfacePoint& point, double weight) {
         if (average.is_usable()) average.add(light_at(setup, sight, point, {++number, points}, work), weight);
     };
-    if (surface.pieces().size() > most_pieces) {
+    if (surface.pieces().size() > most_parts_of_texel) {
         for_each_cell(side, [&](const Vec2& cell) { add(surface.sample(cell.x, cell.y), 1); });
         average.end_piece(1);
         return average.value();
@@ -206,7 +204,7 @@ double rim_difference(const MonitorSetup& setup, const BlockSight& sight, const 
             spent.light.segments += light.segments;
             return light.visibility();
         };
-        const Vec2 middle = piece.is_square ? Vec2(0.5) : Vec2(2.0 / 3, 1.0 / 3);
+        const Vec2 middle = piece.middle();
         const std::array<Vec2, 4> corners = {Vec2(0, 0), Vec2(1, 0), Vec2(1, 1), Vec2(0, 1)};
         const size_t count = piece.is_square ? 4 : 3;
         double mean = 0;
@@ -234,7 +232,7 @@ TexelLight refined(const MonitorSetup& setup, const BlockSight& sight, const Tex
     // Where what is known makes it likely that rays will be needed, they are taken at once.
     const double at_least = points_of(surface, from.is_unlike_center ? 2 * first_side : first_side);
     const bool is_hopeless = are_rays_cheaper_than(from.has_rim ? at_least + 5 : at_least) ||
-                             (may_trace && surface.pieces().size() > most_pieces);
+                             (may_trace && surface.pieces().size() > most_parts_of_texel);
     if (from.has_rim && !is_hopeless) rim = rim_difference(setup, sight, surface, key, work, best);
     for (int side = first_side; side <= 16 && !is_hopeless && !are_rays_cheaper_than(points_of(surface, side));
          side *= 2) {

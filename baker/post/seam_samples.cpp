@@ -72,10 +72,9 @@ double jump(std::span<const Channel> pages, const SeamSample& sample) {
 }
 
 bool is_seen(std::span<const Channel> pages, const SeamSample& sample) {
-    const size_t size = pages[0].state.pixels.size();
     std::array<double, 2> inside{};  // of the first side and of the second
     for (size_t i = 0; i < sample.count; ++i)
-        if (pages[sample.texels[i] / size].state.pixels[sample.texels[i] % size] == TexelState::inside)
+        if (state_of(pages, sample.texels[i]) == TexelState::inside)
             inside[sample.weights[i] > 0 ? 0 : 1] += std::abs(sample.weights[i]);
     return std::max(inside[0], inside[1]) < 0.5;
 }

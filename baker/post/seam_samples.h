@@ -31,6 +31,12 @@ inline double visibility_of(std::span<const Channel> pages, uint64_t texel) {
     return static_cast<double>(pages[texel / size].visibility.pixels[texel % size]);
 }
 
+/// What that texel is.
+inline TexelState state_of(std::span<const Channel> pages, uint64_t texel) {
+    const size_t size = pages[0].state.pixels.size();
+    return pages[texel / size].state.pixels[texel % size];
+}
+
 /// By how much the sides differ, with sign.
 double jump(std::span<const Channel> pages, const SeamSample& sample);
 

@@ -18,8 +18,7 @@ constexpr double seam_weight = 100;
 constexpr double guess_weight = 0.1;
 
 double weight_of(std::span<const Channel> pages, uint64_t texel) {
-    const size_t size = pages[0].state.pixels.size();
-    return pages[texel / size].state.pixels[texel % size] == TexelState::covered ? 1 : guess_weight;
+    return state_of(pages, texel) == TexelState::covered ? 1 : guess_weight;
 }
 
 /// weight * (jump + its change) is to be 0, in those texels of the sample that belong to the part.
@@ -44,12 +43,11 @@ BoundedLeastSquares problem_of(const Atlas& atlas, const Seams& seams, std::span
         const SeamPiece& piece = seams.pieces[p];
         const size_t steps = steps_of(piece);
         const double step = 2 * texels_along(piece) / static_cast<double>(steps);  // in half texels
-        for (size_t i = 0; i <= steps; ++i) {
-            const SeamSample sample = seam_sample(atlas, piece, static_cast<double>(i) / static_cast<double>(steps));
-            if (!is_seen(pages, sample)) continue;
+        for_each_place(atlas, piece, [&](const SeamSample& sample, size_t i) {
+            if (!is_seen(pages, sample)) return;
             const double share = i == 0 || i == steps ? 0.5 : 1;
             add_equation(problem, part, sample, jump(pages, sample), std::sqrt(seam_weight * step * share));
-        }
+        });
     }
     for (const uint64_t texel : part.texels) {
         const double value = visibility_of(pages, texel);

@@ -17,9 +17,11 @@ constexpr double rounding = 4 * static_cast<double>(std::numeric_limits<float>::
 constexpr size_t grain = 1024;
 constexpr uint32_t nobody = std::numeric_limits<uint32_t>::max();
 
-bool is_empty(std::span<const Channel> pages, uint64_t texel) {
-    const size_t size = pages[0].state.pixels.size();
-    return pages[texel / size].state.pixels[texel % size] == TexelState::empty;
+/// Sorts, and leaves one of each.
+template <class Item>
+void make_unique(std::vector<Item>& items) {
+    std::sort(items.begin(), items.end());
+    items.erase(std::unique(items.begin(), items.end()), items.end());
 }
 
 std::vector<uint64_t> joined(std::vector<std::vector<uint64_t>>& lists) {
@@ -28,8 +30,7 @@ std::vector<uint64_t> joined(std::vector<std::vector<uint64_t>>& lists) {
         all.insert(all.end(), list.begin(), list.end());
         list = {};
     }
-    std::sort(all.begin(), all.end());
-    all.erase(std::unique(all.begin(), all.end()), all.end());
+    make_unique(all);
     return all;
 }
 
@@ -38,18 +39,13 @@ std::vector<uint64_t> find_unknowns(const Atlas& atlas, const Seams& seams, std:
     std::vector<std::vector<uint64_t>> found((seams.pieces.size() + grain - 1) / grain);
     parallel_ranges(seams.pieces.size(), grain, [&](size_t begin, size_t end) {
         std::vector<uint64_t>& texels = found[begin / grain];
-        for (size_t p = begin; p < end; ++p) {
-            const size_t steps = steps_of(seams.pieces[p]);
-            for (size_t i = 0; i <= steps; ++i) {
-                const SeamSample sample =
-                    seam_sample(atlas, seams.pieces[p], static_cast<double>(i) / static_cast<double>(steps));
-                if (!(std::abs(jump(pages, sample)) > rounding) || !is_seen(pages, sample)) continue;
+        for (size_t p = begin; p < end; ++p)
+            for_each_place(atlas, seams.pieces[p], [&](const SeamSample& sample, size_t) {
+                if (!(std::abs(jump(pages, sample)) > rounding) || !is_seen(pages, sample)) return;
                 for (size_t k = 0; k < sample.count; ++k)
-                    if (!is_empty(pages, sample.texels[k])) texels.push_back(sample.texels[k]);
-            }
-        }
-        std::sort(texels.begin(), texels.end());
-        texels.erase(std::unique(texels.begin(), texels.end()), texels.end());
+                    if (state_of(pages, sample.texels[k]) != TexelState::empty) texels.push_back(sample.texels[k]);
+            });
+        make_unique(texels);
     });
     return joined(found);
 }
@@ -85,11 +81,6 @@ struct Links {
     std::vector<Link> piece_and_texel;  ///< one texel for each place
 };
 
-void make_unique(std::vector<Link>& links) {
-    std::sort(links.begin(), links.end());
-    links.erase(std::unique(links.begin(), links.end()), links.end());
-}
-
 void add_links(Links& links, const SeamSample& sample, uint32_t piece, const TexelNumbers& numbers) {
     uint32_t first = nobody;
     for (size_t k = 0; k < sample.count; ++k) {
@@ -108,13 +99,10 @@ std::vector<Links> find_links(const Atlas& atlas, const Seams& seams, const Texe
     std::vector<Links> found((seams.pieces.size() + grain - 1) / grain);
     parallel_ranges(seams.pieces.size(), grain, [&](size_t begin, size_t end) {
         Links& links = found[begin / grain];
-        for (size_t p = begin; p < end; ++p) {
-            const size_t steps = steps_of(seams.pieces[p]);
-            for (size_t i = 0; i <= steps; ++i)
-                add_links(links,
-                          seam_sample(atlas, seams.pieces[p], static_cast<double>(i) / static_cast<double>(steps)),
-                          static_cast<uint32_t>(p), numbers);
-        }
+        for (size_t p = begin; p < end; ++p)
+            for_each_place(atlas, seams.pieces[p], [&](const SeamSample& sample, size_t) {
+                add_links(links, sample, static_cast<uint32_t>(p), numbers);
+            });
         make_unique(links.texels);
         make_unique(links.piece_and_texel);
     });

@@ -22,6 +22,14 @@ struct StitchPart {
 /// both ends are places.
 size_t steps_of(const SeamPiece& piece);
 
+/// Calls visit(SeamSample, number of the place) for those places.
+template <class Visit>
+void for_each_place(const Atlas& atlas, const SeamPiece& piece, const Visit& visit) {
+    const size_t steps = steps_of(piece);
+    for (size_t i = 0; i <= steps; ++i)
+        visit(seam_sample(atlas, piece, static_cast<double>(i) / static_cast<double>(steps)), i);
+}
+
 /// The texels that are not empty and that a lookup reads where the two sides differ by more than rounding; in parts
 /// that share no place of a seam, in the order of their lowest texels. n log n, parallel.
 std::vector<StitchPart> find_stitch_parts(const Atlas& atlas, const Seams& seams, std::span<const Channel> pages);

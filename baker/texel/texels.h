@@ -37,6 +37,12 @@ struct Texels {
     std::vector<Texel> texels;
     std::vector<TriangleRef> triangles;
 
+    /// One for each texel of all pages; keys its random numbers.
+    uint64_t key_of(const Texel& texel) const {
+        const auto page_size = static_cast<uint64_t>(width) * static_cast<uint64_t>(height);
+        return static_cast<uint64_t>(page) * page_size + texel.index;
+    }
+
     std::span<const TriangleRef> triangles_of(const Texel& texel) const {
         return {triangles.data() + texel.first, texel.count};
     }

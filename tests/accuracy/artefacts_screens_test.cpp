@@ -11,12 +11,7 @@ namespace {
 using test::ArtefactScene;
 using test::MapJudge;
 using test::Misses;
-
-BakeSettings of_size(int size) {
-    BakeSettings settings;
-    settings.unwrap.width = settings.unwrap.height = size;
-    return settings;
-}
+using test::of_size;
 
 /// All that is lit is exactly 1, as in an empty convex room.
 void expect_open(const ArtefactScene& stage) {

@@ -13,12 +13,7 @@ namespace {
 using test::ArtefactScene;
 using test::MapJudge;
 using test::Misses;
-
-BakeSettings of_size(int size) {
-    BakeSettings settings;
-    settings.unwrap.width = settings.unwrap.height = size;
-    return settings;
-}
+using test::of_size;
 
 void expect_lit(const ArtefactScene& stage) {
     const BakeSettings settings = of_size(96);

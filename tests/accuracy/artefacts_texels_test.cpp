@@ -12,22 +12,17 @@ namespace {
 using test::ArtefactScene;
 using test::MapJudge;
 using test::Misses;
-
-BakeSettings new_charts(int size) {
-    BakeSettings settings;
-    settings.unwrap.width = settings.unwrap.height = size;
-    return settings;
-}
+using test::of_size;
 
 BakeSettings own_charts() {
-    BakeSettings settings = new_charts(test::odd_texel_map);
+    BakeSettings settings = of_size(test::odd_texel_map);
     settings.unwrap.uv = UvSource::existing;
     return settings;
 }
 
 TEST(SliverCharts, AreExactlyLit_M3) {
     const ArtefactScene stage = test::sliver_charts();
-    const Bake baked = bake(stage.scene, new_charts(128), {});
+    const Bake baked = bake(stage.scene, of_size(128), {});
     const MapJudge judge(stage, baked);
     for (const uint32_t surface : stage.surfaces) {
         const Misses misses = judge.compare_with(surface, 1, 0);
@@ -86,7 +81,7 @@ TEST(TexelAtTheOrigin, IsMeasuredLikeAnyOther_M3) {
 
 TEST(BlackTexels, AreMeasuredAndWhatIsUnlitTakesTheirBlack_M3) {
     const ArtefactScene stage = test::black_beside_unlit();
-    const Bake baked = bake(stage.scene, new_charts(64), {});
+    const Bake baked = bake(stage.scene, of_size(64), {});
     const MapJudge judge(stage, baked);
     EXPECT_GT(judge.count(stage.surfaces[0], TexelState::unlit), 500u);
     const Misses black = judge.compare_with(stage.surfaces[0], 0, 0);

@@ -12,12 +12,7 @@ namespace {
 using test::ArtefactScene;
 using test::MapJudge;
 using test::Misses;
-
-BakeSettings of_size(int size) {
-    BakeSettings settings;
-    settings.unwrap.width = settings.unwrap.height = size;
-    return settings;
-}
+using test::of_size;
 
 /// Texels are within the error of what can be seen of them, one in a thousand excepted, and reads where all around is
 /// lit, or all is dark, are exactly that, or within what a `penumbra` between the places looked at may take from a

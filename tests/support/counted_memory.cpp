@@ -20,16 +20,15 @@ void add(size_t bytes) {
 
 }  // namespace
 
-void* operator new(size_t bytes) {
-    void* block = std::malloc(bytes > 0 ? bytes : 1);
-    if (!block) throw std::bad_alloc();
-    add(malloc_usable_size(block));
-    return block;
-}
-
 void* operator new(size_t bytes, const std::nothrow_t&) noexcept {
     void* block = std::malloc(bytes > 0 ? bytes : 1);
     if (block) add(malloc_usable_size(block));
+    return block;
+}
+
+void* operator new(size_t bytes) {
+    void* block = operator new(bytes, std::nothrow);
+    if (!block) throw std::bad_alloc();
     return block;
 }
 

@@ -68,6 +68,12 @@ std::optional<JointPlace> place_beside(const CutPlane& stage, const Vec3& place,
 
 }  // namespace
 
+BakeSettings of_size(int size) {
+    BakeSettings settings;
+    settings.unwrap.width = settings.unwrap.height = size;
+    return settings;
+}
+
 double read_map(const Bake& bake, const TriangleRef& where, const Vec3& barycentric, int channel) {
     const auto page = static_cast<size_t>(bake.atlas.surfaces[where.surface].page);
     return look_up(bake.pages[page].map, uv_at(bake.atlas, where, barycentric))[channel];

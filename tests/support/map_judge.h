@@ -16,6 +16,9 @@
 
 namespace surimi::test {
 
+/// New charts on a map of size x size.
+BakeSettings of_size(int size);
+
 /// The map's value at a point, as a shader reads it, bilinearly.
 double read_map(const Bake& bake, const TriangleRef& where, const Vec3& barycentric, int channel = 0);
 
