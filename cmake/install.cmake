@@ -4,15 +4,16 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/surimi)
 
-install(TARGETS surimi RUNTIME)
-install(TARGETS surimi_runtime EXPORT surimi ARCHIVE)
+install(TARGETS surimi RUNTIME COMPONENT program)
+install(TARGETS surimi_runtime EXPORT surimi ARCHIVE COMPONENT development)
 # Without the headers that only our own sources include: they show tinygltf and Highway to who sees them.
-install(DIRECTORY runtime DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/surimi FILES_MATCHING PATTERN "*.h"
+install(DIRECTORY runtime DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/surimi COMPONENT development FILES_MATCHING PATTERN "*.h"
   PATTERN fit EXCLUDE
   REGEX "/scene/(gltf_[a-z]+|accessor|compressed)\\.h$" EXCLUDE
   REGEX "-inl\\.h$" EXCLUDE)
 
-install(EXPORT surimi NAMESPACE surimi:: FILE surimi-targets.cmake DESTINATION ${package_folder})
+install(EXPORT surimi NAMESPACE surimi:: FILE surimi-targets.cmake DESTINATION ${package_folder} COMPONENT development)
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/surimi-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES cmake/surimi-config.cmake cmake/libraries.cmake ${CMAKE_BINARY_DIR}/surimi-config-version.cmake
-  DESTINATION ${package_folder})
+  DESTINATION ${package_folder} COMPONENT development)
+install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)

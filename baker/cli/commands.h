@@ -20,5 +20,8 @@ Run add_preview_command(CLI::App& app);
 Run add_compare_command(CLI::App& app);
 Run add_study_command(CLI::App& app);
 Run add_plan_command(CLI::App& app);
+Run add_validate_command(CLI::App& app);
+Run add_doctor_command(CLI::App& app);
+Run add_completion_command(CLI::App& app);
 
 }  // namespace surimi

@@ -7,6 +7,7 @@
 
 #include "baker/cli/commands.h"
 #include "baker/cli/config_file.h"
+#include "baker/cli/help.h"
 #include "runtime/base/error.h"
 
 namespace {
@@ -49,12 +50,14 @@ int run(int argc, char** argv) {
     app.footer(footer);
     app.require_subcommand(1);
     std::vector<std::pair<const CLI::App*, surimi::Run>> commands;
-    for (const auto add : {surimi::add_inspect_command, surimi::add_unwrap_command, surimi::add_bake_command,
-                           surimi::add_preview_command, surimi::add_compare_command, surimi::add_study_command,
-                           surimi::add_plan_command}) {
+    for (const auto add :
+         {surimi::add_inspect_command, surimi::add_unwrap_command, surimi::add_bake_command,
+          surimi::add_preview_command, surimi::add_compare_command, surimi::add_study_command, surimi::add_plan_command,
+          surimi::add_validate_command, surimi::add_doctor_command, surimi::add_completion_command}) {
         const surimi::Run command = add(app);
         commands.emplace_back(app.get_subcommands({}).back(), command);
     }
+    surimi::set_up_help(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& request) {  // --help, --version

@@ -109,4 +109,10 @@ std::vector<uint8_t> encode_png(const Image<glm::u8vec3>& image) {
     return bytes;
 }
 
+std::string image_library() {
+    const int version = OIIO::openimageio_version();  // 10000 major + 100 minor + patch
+    return "OpenImageIO " + std::to_string(version / 10000) + "." + std::to_string(version / 100 % 100) + "." +
+           std::to_string(version % 100);
+}
+
 }  // namespace surimi

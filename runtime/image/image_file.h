@@ -37,4 +37,7 @@ void write_exr(const std::filesystem::path& path, const Channels& channels, ExrD
 /// Encodes 8-bit RGB as a PNG; the bytes depend on the pixels alone.
 std::vector<uint8_t> encode_png(const Image<glm::u8vec3>& image);
 
+/// Name and version of the library that reads and writes images.
+std::string image_library();
+
 }  // namespace surimi

@@ -298,4 +298,15 @@ std::optional<Hit> RayScene::closest_hit(const Vec3& origin, const Vec3& directi
     return Hit{{query.hit.geomID, query.hit.primID}, barycentric, query.ray.tfar, glm::dot(normal, direction) < 0};
 }
 
+std::string tracing_library() {
+    const RTCDevice device = rtcNewDevice(nullptr);
+    const auto part = [&](RTCDeviceProperty property) {
+        return std::to_string(rtcGetDeviceProperty(device, property));
+    };
+    const std::string version = part(RTC_DEVICE_PROPERTY_VERSION_MAJOR) + "." +
+                                part(RTC_DEVICE_PROPERTY_VERSION_MINOR) + "." + part(RTC_DEVICE_PROPERTY_VERSION_PATCH);
+    rtcReleaseDevice(device);
+    return "Embree " + version;
+}
+
 }  // namespace surimi

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "runtime/scene/surface_point.h"
@@ -108,5 +109,8 @@ class RayScene {
     struct State;
     std::unique_ptr<State> state_;
 };
+
+/// Name and version of the library that traces, as it was found when the program started.
+std::string tracing_library();
 
 }  // namespace surimi

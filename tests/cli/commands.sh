@@ -353,6 +353,46 @@ done
 expect 0 '"referenceNoise"' "$surimi" preview "$baked" -o "$work/compared.png" --compare --json --reference-samples 2 --size 32 18 --samples 1
 expect 2 "--compare is for" "$surimi" preview "$baked" -o "$work/x.png" --compare --show diffuse
 
+# Help: the options of every day on one screen of 100 columns, all of them on demand
+check test "$("$surimi" bake --help | wc -l)" -le 45
+check test "$(COLUMNS=100 "$surimi" bake --help-all | wc -L)" -le 100
+expect 0 "more options: surimi bake --help-all" "$surimi" bake --help
+expect 0 "--supersample" "$surimi" bake --help-all
+expect 0 "doctor" "$surimi" --help
+
+# Completion: what bash would offer
+complete_words() { # WORD...: the last one is being typed
+    bash -c 'source "$1"; shift; COMP_WORDS=(surimi "$@"); COMP_CWORD=$#; _surimi; echo "${COMPREPLY[@]}"' _ "$work/surimi.bash" "$@"
+}
+"$surimi" completion bash >"$work/surimi.bash"
+check test "$(complete_words pre)" = preview
+check test "$(complete_words bake --qu)" = "--quiet --quality"
+check test "$(complete_words bake --quality d)" = draft
+check test "$(complete_words bake --progress '')" = "auto bar lines json none"
+check test -z "$(complete_words bake room)"     # files are bash's own
+check test -z "$(complete_words bake --size '')" # so is what is no list of words
+expect 0 "#compdef surimi" "$surimi" completion zsh
+expect 0 "__fish_seen_subcommand_from bake' -l quality" "$surimi" completion fish
+expect 2 "bash,zsh,fish" "$surimi" completion powershell
+for shell in zsh fish; do
+    "$surimi" completion $shell >"$work/surimi.$shell"
+    command -v $shell >/dev/null && check $shell -n "$work/surimi.$shell"
+done
+
+# The health of a machine and of a bake
+expect 0 "ok" "$surimi" doctor
+expect 0 '"instructionSet"' "$surimi" doctor --json
+expect 1 "FAILED" env TMPDIR="$work/no/such" "$surimi" doctor
+expect 0 "home-theater.baked.glb" "$surimi" validate "$work/out"
+expect 0 '"faults": []' "$surimi" validate "$work/out/home-theater.visibility.json" --json
+expect 2 "no NAME.visibility.json" "$surimi" validate "$work/out/.."
+expect 3 "is no manifest" "$surimi" validate "$theater"
+cp -r "$work/out" "$work/damaged"
+printf x >>"$work/damaged/home-theater.visibility.png"
+rm "$work/damaged/home-theater.lightmaps.exr"
+expect 3 "visibility.png: is not what the bake wrote" "$surimi" validate "$work/damaged"
+expect 3 "lightmaps.exr: is missing" "$surimi" validate "$work/damaged"
+
 # 130: Ctrl-C leaves nothing behind
 "$surimi" bake "$theater" --size 2048 --method mc --samples 4096 -o "$work/interrupted" --quiet 2>"$work/stderr" &
 sleep 3
