@@ -104,8 +104,11 @@ Bake bake(const Scene& scene, const BakeSettings& settings, const Progress& prog
         for (size_t p = 0; p < channels.size(); ++p) grow_gutters(preparation.texels[p], channels[p], 1);
         stopwatch.finish("fill " + monitor.name);
         if (post_settings.fit == Fit::bilinear) {
+            const std::vector<Panel> panels = panels_of(monitor, *preparation.rays);
             for (size_t p = 0; p < channels.size(); ++p)
-                evidence.fit.add(fit_bilinear(preparation.atlas, preparation.texels[p], channels[p]));
+                evidence.fit.add(fit_bilinear(
+                    {scene, preparation.atlas, preparation.texels[p], *preparation.rays, settings.gather.lifts_smooth},
+                    panels, channels[p]));
             stopwatch.finish("fit " + monitor.name);
         }
         evidence.seams = stitch(preparation.atlas, preparation.seams, channels);

@@ -157,9 +157,10 @@ PostSeconds calibrate_post(const Scene& scene, const Preparation& preparation, c
     for (size_t p = 0; p < channels.size(); ++p) grow_gutters(preparation.texels[p], channels[p], all_rings);
     seconds.fill = fill_timer.seconds();
     const Timer fit_timer;
-    if (settings.fit == Fit::bilinear)
-        for (size_t p = 0; p < channels.size(); ++p)
-            fit_bilinear(preparation.atlas, preparation.texels[p], channels[p]);
+    const std::vector<Panel> panels =
+        scene.monitors.empty() ? std::vector<Panel>() : panels_of(scene.monitors.front(), *preparation.rays);
+    for (size_t p = 0; p < channels.size() && settings.fit == Fit::bilinear; ++p)
+        fit_bilinear({scene, preparation.atlas, preparation.texels[p], *preparation.rays}, panels, channels[p]);
     seconds.fit = fit_timer.seconds();
     const Timer seams_timer;
     stitch(preparation.atlas, preparation.seams, channels);

@@ -72,13 +72,14 @@ bool is_measured(const Channel& channel, size_t index) {
 }
 
 /// Sets what the reads over each measured texel average to.
-void find_averages(const Atlas& atlas, const Texels& texels, const Channel& channel, Field& field) {
+void find_averages(const Receivers& receivers, std::span<const Panel> panels, const Channel& channel, Field& field) {
+    const Texels& texels = receivers.texels;
     field.averages = {ReadAverage{}, read_average_of_whole};
     std::vector<uint8_t> is_part(texels.texels.size());
     parallel_for(is_part.size(), grain, [&](size_t i) {
         const Texel& texel = texels.texels[i];
         if (!is_measured(channel, texel.index)) return;
-        is_part[i] = !is_read_as_whole(atlas, texels, texel);
+        is_part[i] = !is_read_as_whole(receivers, texel);
         field.average[field.place_of(texel.index)] = 1;
     });
     std::vector<uint32_t> parts;
@@ -87,7 +88,7 @@ void find_averages(const Atlas& atlas, const Texels& texels, const Channel& chan
     field.averages.resize(2 + parts.size());
     parallel_for(parts.size(), grain, [&](size_t p) {
         const Texel& texel = texels.texels[parts[p]];
-        field.averages[2 + p] = read_average(atlas, texels, texel);
+        field.averages[2 + p] = read_average(receivers, panels, texel);
         field.average[field.place_of(texel.index)] = static_cast<uint32_t>(2 + p);
     });
 }
@@ -124,13 +125,14 @@ void find_equations(const Texels& texels, Field& field) {
     });
 }
 
-Field field_of(const Atlas& atlas, const Texels& texels, const Channel& channel) {
+Field field_of(const Receivers& receivers, std::span<const Panel> panels, const Channel& channel) {
+    const Texels& texels = receivers.texels;
     Field field;
     field.width = static_cast<size_t>(texels.width);
     field.stride = field.width + 2;
     const size_t places = field.stride * (static_cast<size_t>(texels.height) + 2);
     field.average.resize(places);
-    find_averages(atlas, texels, channel, field);
+    find_averages(receivers, panels, channel, field);
     find_unknowns(channel, field);
     field.value.resize(places);
     for (size_t i = 0; i < channel.visibility.pixels.size(); ++i)
@@ -225,9 +227,9 @@ void BilinearFit::add(const BilinearFit& page) {
     rounds = std::max(rounds, page.rounds);
 }
 
-BilinearFit fit_bilinear(const Atlas& atlas, const Texels& texels, Channel& channel) {
+BilinearFit fit_bilinear(const Receivers& receivers, std::span<const Panel> panels, Channel& channel) {
     BilinearFit fit;
-    Field field = field_of(atlas, texels, channel);
+    Field field = field_of(receivers, panels, channel);
     fit.area = measured_area(field);
     if (!(fit.area > 0)) return fit;
     fit.rms_before = std::sqrt(squared_misses(field) / fit.area);

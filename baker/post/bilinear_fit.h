@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 
+#include "baker/gather/exposure.h"
+#include "baker/gather/panel.h"
 #include "baker/post/channel.h"
 #include "baker/texel/texels.h"
-#include "baker/unwrap/atlas.h"
 
 namespace surimi {
 
@@ -24,11 +26,12 @@ struct BilinearFit {
     double area = 0;  ///< of the means, in texels
 };
 
-/// Changes the values of one page of a monitor, filled and with the first ring of the gutter, by (M67). Measured texels
+/// Changes the values of one page of the monitor with these panels, filled and with the first ring of the gutter, by
+/// (M67). Measured texels
 /// (`covered`) of exactly 0 or 1 keep their bits, as do texels that no read over a measured one meets and those whose
 /// change is below 2^-14. Of the others measured ones and those that took their value from around them may change;
 /// states stay and values are in [0, 1]. Linear in the texels, parallel; neither threads nor order show.
-BilinearFit fit_bilinear(const Atlas& atlas, const Texels& texels, Channel& channel);
+BilinearFit fit_bilinear(const Receivers& receivers, std::span<const Panel> panels, Channel& channel);
 
 /// Bytes that fit_bilinear takes at most beside its arguments.
 size_t bilinear_fit_bytes(const Texels& texels);

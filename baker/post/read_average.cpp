@@ -23,14 +23,36 @@ Place place_of(const Texels& texels, const Texel& texel) {
     return {static_cast<int>(texel.index % width), static_cast<int>(texel.index / width)};
 }
 
+/// Calls visit(polygon) for convex polygons on the map, in texels, that are what was measured of a texel: maybe with
+/// more beyond its square.
+template <class Visit>
+void for_each_polygon(const Receivers& receivers, std::span<const Panel> panels, const Texel& texel,
+                      const Visit& visit) {
+    if (texel.free_pieces == Texel::all_pieces) {
+        for (const TriangleRef& triangle : receivers.texels.triangles_of(texel))
+            visit(texel_corners(receivers.atlas, triangle));
+        return;
+    }
+    const TexelSurface surface = exposed_surface(receivers, texel, panels);
+    for (const TexelSurface::Piece& piece : surface.pieces()) {
+        const auto corners = texel_corners(receivers.atlas, piece.triangle);
+        const auto at = [&](double u, double v) {
+            const Vec3 weights = piece.barycentric.at(u, v);
+            return weights.x * corners[0] + weights.y * corners[1] + weights.z * corners[2];
+        };
+        visit(std::array{at(0, 0), at(1, 0), at(1, 1)});
+        if (piece.is_square) visit(std::array{at(0, 0), at(1, 1), at(0, 1)});
+    }
+}
+
 /// Cuts polygons, in arrays that are used again.
 class Cutter {
   public:
-    /// The part of the triangle over a texel's square, relative to its centre: in [-1/2, 1/2]^2.
-    std::span<const Vec2> over_texel(const std::array<Vec2, 3>& corners, const Place& place) {
+    /// The part over a texel's square, relative to its centre: in [-1/2, 1/2]^2.
+    std::span<const Vec2> over_texel(std::span<const Vec2> polygon, const Place& place) {
         const Vec2 center(place.x + 0.5, place.y + 0.5);
         part_.clear();
-        for (const Vec2& corner : corners) part_.push_back(corner - center);
+        for (const Vec2& corner : polygon) part_.push_back(corner - center);
         for (const Vec3& line : {Vec3(1, 0, 0.5), Vec3(-1, 0, 0.5), Vec3(0, 1, 0.5), Vec3(0, -1, 0.5)}) keep(line);
         return part_;
     }
@@ -50,7 +72,7 @@ class Cutter {
     std::vector<Vec2> part_, rest_;
 };
 
-/// Integrals over a polygon, with its orientation's sign.
+/// Integrals over a polygon, whatever its orientation.
 struct Moments {
     double one = 0, x = 0, y = 0, xy = 0;
 };
@@ -66,6 +88,7 @@ Moments moments_of(std::span<const Vec2> polygon) {
         sum.y += area / 3 * corners.y;
         sum.xy += area / 12 * (corners.x * corners.y + a.x * a.y + b.x * b.y + c.x * c.y);
     }
+    if (sum.one < 0) sum = {-sum.one, -sum.x, -sum.y, -sum.xy};
     return sum;
 }
 
@@ -98,34 +121,30 @@ void clamp_to_map(const Place& place, const Texels& texels, Weights& weights) {
 
 }  // namespace
 
-bool is_read_as_whole(const Atlas& atlas, const Texels& texels, const Texel& texel) {
+bool is_read_as_whole(const Receivers& receivers, const Texel& texel) {
+    const Texels& texels = receivers.texels;
     const Place place = place_of(texels, texel);
+    if (texel.free_pieces != Texel::all_pieces) return false;
     if (place.x == 0 || place.y == 0 || place.x == texels.width - 1 || place.y == texels.height - 1) return false;
     Cutter cutter;
     double area = 0;
     for (const TriangleRef& triangle : texels.triangles_of(texel))
-        area += std::abs(area_of(cutter.over_texel(texel_corners(atlas, triangle), place)));
+        area += std::abs(area_of(cutter.over_texel(texel_corners(receivers.atlas, triangle), place)));
     return area >= least_whole;
 }
 
-ReadAverage read_average(const Atlas& atlas, const Texels& texels, const Texel& texel) {
-    const Place place = place_of(texels, texel);
-    Cutter cutter, quarters;
+ReadAverage read_average(const Receivers& receivers, std::span<const Panel> panels, const Texel& texel) {
+    const Place place = place_of(receivers.texels, texel);
+    Cutter squares, quarters;
     Weights weights{};
     double area = 0;
-    for (const TriangleRef& triangle : texels.triangles_of(texel)) {
-        const std::span<const Vec2> part = cutter.over_texel(texel_corners(atlas, triangle), place);
+    for_each_polygon(receivers, panels, texel, [&](const std::array<Vec2, 3>& triangle) {
+        const std::span<const Vec2> part = squares.over_texel(triangle, place);
         area += std::abs(area_of(part));
-        for (const int y : {-1, 1}) {
-            for (const int x : {-1, 1}) {
-                Moments moments = moments_of(quarters.in_quarter(part, Vec2(x, y)));
-                const double sign = moments.one < 0 ? -1 : 1;
-                moments = {sign * moments.one, sign * moments.x, sign * moments.y, sign * moments.xy};
-                add_quarter(moments, x, y, weights);
-            }
-        }
-    }
-    clamp_to_map(place, texels, weights);
+        for (const int y : {-1, 1})
+            for (const int x : {-1, 1}) add_quarter(moments_of(quarters.in_quarter(part, Vec2(x, y))), x, y, weights);
+    });
+    clamp_to_map(place, receivers.texels, weights);
     ReadAverage average;
     constexpr double least_area = 1e-9;  // what is less is rounding of a triangle that only touches
     if (!(area > least_area)) return average;
