@@ -14,10 +14,10 @@ namespace surimi {
 namespace {
 
 constexpr double stay_weight = 0.1;  // lambda of (M67)
-constexpr double least_change =
-    0x1p-14;  // as of stitching: what is less would only take from texels that they are plain
+// As of stitching: what is less would only take from texels that they are plain.
+constexpr double least_change = 0x1p-14;
 constexpr double settled = least_change / 64;  // a round that changes less is the last
-constexpr size_t most_rounds = 500;            // never reached: a round leaves 3/4 of the way at most
+constexpr size_t most_rounds = 500;            // never reached: 30 to 40 are enough
 constexpr size_t grain = 4096;
 
 /// A measured texel: what the changes around it are to average to.

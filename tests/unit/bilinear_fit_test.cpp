@@ -11,6 +11,7 @@
 #include "baker/texel/polygon.h"
 #include "runtime/base/parallel.h"
 #include "runtime/base/random.h"
+#include "tests/support/counted_memory.h"
 #include "tests/support/patches.h"
 
 namespace surimi {
@@ -205,7 +206,7 @@ TEST(BilinearFit, IsLeast_M67) {
     const Page page({large_patch()});
     const Channel before = measured(page, penumbra);
     Channel channel = before;
-    page.fit(channel);
+    EXPECT_LE(page.fit(channel).rounds, 60u) << "momentum makes 30 to 40 of 100";
     const auto sum_of = [&](const Channel& tried) {
         double sum = 0;
         for (const Texel& texel : page.texels.texels) {
@@ -262,6 +263,19 @@ TEST(BilinearFit, PlainTexelsKeepTheirBitsAndValuesStayInRange_M67) {
     EXPECT_GT(at_bounds, 5u) << "bounds are not met";
     EXPECT_GT(fit.texels, 100u);
     for (size_t i = 0; i < before.state.pixels.size(); ++i) EXPECT_EQ(channel.state.pixels[i], before.state.pixels[i]);
+}
+
+TEST(BilinearFit, PlainTexelsStayThoughTheirNeighboursWouldMoveThem_M67) {
+    // A fiftieth of the first column is covered, and lit; the second is nearly dark, and all that it can do is too little.
+    Patch patch = large_patch();
+    patch.texel_corner.x = 7.98;
+    const Page page({patch});
+    Channel channel = page.painted(even);
+    for (const Texel& texel : page.texels.texels)
+        channel.visibility.pixels[texel.index] = texel.index % size == 7 ? 1 : 0.02f;
+    page.fit(channel);
+    EXPECT_EQ(channel.visibility.at(8, 30), 0) << "nothing pulls";
+    for (int y = 10; y < 43; ++y) EXPECT_EQ(channel.visibility.at(7, y), 1);
 }
 
 TEST(BilinearFit, MovesTheGutterAndTexelsWithoutLightButNothingBeyond_M67) {
@@ -328,6 +342,17 @@ TEST(BilinearFit, AChartThatIsALineIsLeftAlone_M67) {
     const Channel before = channel;
     EXPECT_EQ(page.fit(channel).texels, 0u);
     EXPECT_TRUE(is_same(channel.visibility, before.visibility));
+}
+
+TEST(BilinearFit, KeepsWithinTheBytesThatItForetells) {
+    const Page page({large_patch()});
+    Channel channel = measured(page, wave);
+    test::restart_count();
+    page.fit(channel);
+    const size_t most = test::most_counted_bytes();
+    constexpr size_t slack = 32768;  // of threads and what malloc adds
+    EXPECT_LE(most, bilinear_fit_bytes(page.texels) + slack);
+    EXPECT_GT(most + slack, bilinear_fit_bytes(page.texels) / 2);
 }
 
 TEST(BilinearFit, PagesJoinByTheirArea) {
