@@ -266,7 +266,8 @@ TEST(BilinearFit, PlainTexelsKeepTheirBitsAndValuesStayInRange_M67) {
 }
 
 TEST(BilinearFit, PlainTexelsStayThoughTheirNeighboursWouldMoveThem_M67) {
-    // A fiftieth of the first column is covered, and lit; the second is nearly dark, and all that it can do is too little.
+    // A fiftieth of the first column is covered, and lit; the second is nearly dark, and all that it can do is too
+    // little.
     Patch patch = large_patch();
     patch.texel_corner.x = 7.98;
     const Page page({patch});
