@@ -18,7 +18,7 @@ constexpr double stay_weight = 0.1;  // lambda of (M67)
 constexpr double least_change = 0x1p-14;
 constexpr double settled = least_change / 64;  // a round that changes less is the last
 constexpr size_t most_rounds = 500;            // never reached: 30 to 40 are enough
-constexpr size_t grain = 4096;
+constexpr size_t grain = 4096;                 // of texels
 
 /// A measured texel: what the changes around it are to average to.
 struct Equation {
@@ -86,7 +86,7 @@ void find_averages(const Receivers& receivers, std::span<const Panel> panels, co
     for (size_t i = 0; i < is_part.size(); ++i)
         if (is_part[i]) parts.push_back(static_cast<uint32_t>(i));
     field.averages.resize(2 + parts.size());
-    parallel_for(parts.size(), grain, [&](size_t p) {
+    parallel_for(parts.size(), 64, [&](size_t p) {
         const Texel& texel = texels.texels[parts[p]];
         field.averages[2 + p] = read_average(receivers, panels, texel);
         field.average[field.place_of(texel.index)] = static_cast<uint32_t>(2 + p);

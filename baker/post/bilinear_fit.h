@@ -12,7 +12,8 @@
 
 namespace surimi {
 
-/// What fitting came to. Means are over the measured texels, by area.
+/// What fitting came to. Means are over the measured texels, by area; those that read nothing that may change miss
+/// nothing.
 struct BilinearFit {
     size_t texels = 0;        ///< that changed
     double largest_move = 0;  ///< of a texel
@@ -27,10 +28,10 @@ struct BilinearFit {
 };
 
 /// Changes the values of one page of the monitor with these panels, filled and with the first ring of the gutter, by
-/// (M67). Measured texels
-/// (`covered`) of exactly 0 or 1 keep their bits, as do texels that no read over a measured one meets and those whose
-/// change is below 2^-14. Of the others measured ones and those that took their value from around them may change;
-/// states stay and values are in [0, 1]. Linear in the texels, parallel; neither threads nor order show.
+/// (M67). Measured texels (`covered`) of exactly 0 or 1 keep their bits, as do texels that no read over a measured one
+/// meets and those whose change is below 2^-14. Of the others measured ones and those that took their value from around
+/// them may change; states stay and values are in [0, 1]. Linear in the texels, parallel; the number of threads does
+/// not show.
 BilinearFit fit_bilinear(const Receivers& receivers, std::span<const Panel> panels, Channel& channel);
 
 /// Bytes that fit_bilinear takes at most beside its arguments.
