@@ -121,9 +121,9 @@ TEST(Output, MonitorsOfOneNameHaveLayersOfTheirOwn) {
     finished.scene.monitors[1].channel = 2;
     finished.bake.pages[0].state[2] = finished.bake.pages[0].state[1];
     finished.bake.pages[0].irradiance[2] = finished.bake.pages[0].irradiance[1];
-    const Channels channels = lightmap_channels(finished.scene, finished.bake.pages[0]);
-    EXPECT_EQ(channels.names[0], "Screen_G.shadowed");
-    EXPECT_EQ(channels.names[5], "Screen_B.shadowed");
+    const ChannelLayout layout = lightmap_layout(finished.scene, finished.bake.pages[0]);
+    EXPECT_EQ(layout.names[0], "Screen_G.shadowed");
+    EXPECT_EQ(layout.names[5], "Screen_B.shadowed");
 }
 
 TEST(Output, ManifestHashesWhatIsOnTheDisk) {
