@@ -187,8 +187,8 @@ void add_gather_options(CLI::App& app, GatherWishes& wishes) {
                    "Gather light on N x N subtexels of each texel, 1 to 4, then average what arrives [1]")
         ->option_text("N (Env:SURIMI_SUPERSAMPLE)");
     app.add_option("--memory", wishes.memory,
-                   "MiB that the bake may take: the map is lit in bands of rows that keep within it; the map itself "
-                   "must fit, and writing it comes on top; 0: no bound [0]")
+                   "MiB that the bake may take, up to its files: the map is lit in bands of rows that keep within it; "
+                   "the map itself must fit; 0: no bound [0]")
         ->option_text("MIB (Env:SURIMI_MEMORY)");
 }
 
