@@ -204,8 +204,8 @@ void add_gather_options(CLI::App& app, GatherWishes& wishes) {
            "shadows sharper than a texel [none]")
         ->option_text("none|bilinear (Env:SURIMI_FIT)");
     app.add_option("--memory", wishes.memory,
-                   "MiB that the bake may take: the map is lit in bands of rows that keep within it; the map itself "
-                   "must fit, and writing it comes on top; 0: no bound [0]")
+                   "MiB that the bake may take, up to its files: the map is lit in bands of rows that keep within it; "
+                   "the map itself must fit; 0: no bound [0]")
         ->option_text("MIB (Env:SURIMI_MEMORY)");
 }
 
