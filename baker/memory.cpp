@@ -2,7 +2,9 @@
 #include "baker/memory.h"
 
 #include <fmt/format.h>
+#ifdef __GLIBC__
 #include <malloc.h>
+#endif
 
 #include <algorithm>
 #include <filesystem>

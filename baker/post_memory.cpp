@@ -6,6 +6,7 @@
 
 #include "baker/gather/gather.h"
 #include "baker/gather/panel.h"
+#include "baker/post/bilinear_fit.h"
 #include "baker/post/growth.h"
 #include "baker/post/near_texels.h"
 #include "baker/post/rim.h"
@@ -19,8 +20,8 @@ constexpr int target_rings = 4, source_rings = 2;
 constexpr int rows_at_a_time = 64;
 // A node of the k-d tree for about 3.5 places, and the place's number.
 constexpr size_t bytes_of_place_in_tree = sizeof(TexelPlace) + 16;
-// Links, equations, both triangles of the matrix and its factor; measured, see docs/decisions.md.
-constexpr size_t bytes_of_seam_place = 1000;
+// Links, equations, both triangles of the matrix and its factor: 240 to 340 measured in rooms, see docs/decisions.md.
+constexpr size_t bytes_of_seam_place = 400;
 
 /// For each page, 1 for each of its texels that the monitor lights.
 using LitTexels = std::vector<std::vector<uint8_t>>;
@@ -154,7 +155,10 @@ size_t grown_bytes(size_t count, size_t of_item) {
 
 size_t post_bytes(const Scene& scene, const Preparation& preparation, size_t monitor, const PostSettings& settings) {
     size_t most = fill_bytes(preparation, lit_texels(scene, preparation, monitor), settings);
-    for (const Texels& page : preparation.texels) most = std::max(most, gutter_bytes(page));
+    for (const Texels& page : preparation.texels) {
+        most = std::max(most, gutter_bytes(page));
+        if (settings.fit == Fit::bilinear) most = std::max(most, bilinear_fit_bytes(page));
+    }
     return std::max(most, stitch_bytes(preparation.seams));
 }
 
