@@ -13,6 +13,7 @@
 #include "runtime/base/error.h"
 #include "runtime/scene/gltf.h"
 #include "runtime/scene/monitors.h"
+#include "runtime/scene/roles.h"
 #include "runtime/trace/ray_scene.h"
 #include "tests/support/map_pictures.h"
 #include "tests/support/point_rays.h"
@@ -217,6 +218,7 @@ void print_costs(const std::vector<Variant>& variants) {
 
 void run(const Options& options) {
     Scene scene = read_gltf(options.file);
+    apply_roles(scene, {});
     find_monitors(scene, {});
     const std::vector<Variant> variants = bake_variants(scene, options);
     std::printf("%s, %d x %d, error %g\n", scene.path.filename().string().c_str(), options.size, options.size,
