@@ -4,12 +4,13 @@
 # artefact_figures.sh SURIMI_BEFORE SURIMI_AFTER SCENES ORACLE OUT
 # One program twice compares settings: BEFORE_OPTIONS='--without covers,inside,terminator,fill,seams'. ROOMS names the
 # rooms (SCENES/ROOM/ROOM.glb), BAKE_OPTIONS the settings of both in place of --size 1024 --quality medium (classroom:
-# draft). Bakes stay in OUT/before/ROOM and OUT/after/ROOM; those that are there are not made again.
+# draft), SAMPLING the oracle's points, seed and side. Bakes stay in OUT/before/ROOM and OUT/after/ROOM; those that are
+# there are not made again.
 # ORACLE is called as `ORACLE points BAKED.glb MONITORS POINTS SEED SIDE` and as `ORACLE check BAKED.glb MAP.exr ..`,
 # with ORACLE_DUMP=1 for a line a point.
 set -euo pipefail
 surimi_before=$1 surimi_after=$2 scenes=$3 oracle=$4 out=$5
-sampling=(4000 7 24)
+read -ra sampling <<<"${SAMPLING:-4000 7 24}" # points, seed, samples a side of a panel's triangle
 visible_points=$(dirname "$surimi_after")/visible_points
 
 # bake WHEN SURIMI ROOM [OPTIONS]: nothing where there is a map already.
