@@ -3,13 +3,14 @@
 # (visible_points, which has to be built beside SURIMI_AFTER), as rows of a Markdown table:
 # artefact_figures.sh SURIMI_BEFORE SURIMI_AFTER SCENES ORACLE OUT
 # One program twice compares settings: BEFORE_OPTIONS='--without covers,inside,terminator,fill,seams'. ROOMS names the
-# rooms, BAKE_OPTIONS the settings of both. Bakes stay in OUT/before/ROOM and OUT/after/ROOM; those that are there are
-# not made again.
+# rooms (SCENES/ROOM/ROOM.glb), BAKE_OPTIONS the settings of both in place of --size 1024 --quality medium (classroom:
+# draft), SAMPLING the oracle's points, seed and side. Bakes stay in OUT/before/ROOM and OUT/after/ROOM; those that are
+# there are not made again.
 # ORACLE is called as `ORACLE points BAKED.glb MONITORS POINTS SEED SIDE` and as `ORACLE check BAKED.glb MAP.exr ..`,
 # with ORACLE_DUMP=1 for a line a point.
 set -euo pipefail
 surimi_before=$1 surimi_after=$2 scenes=$3 oracle=$4 out=$5
-sampling=(4000 7 24)
+read -ra sampling <<<"${SAMPLING:-4000 7 24}" # points, seed, samples a side of a panel's triangle
 visible_points=$(dirname "$surimi_after")/visible_points
 
 # bake WHEN SURIMI ROOM [OPTIONS]: nothing where there is a map already.
@@ -18,11 +19,11 @@ bake() {
     [[ $3 == classroom ]] && quality=draft
     [[ -f $folder/$3.visibility.json ]] && return
     # shellcheck disable=SC2086 # several options
-    "$2" bake "$scenes/$3/$3.glb" -o "$folder" --size 1024 --quality $quality --quiet ${BAKE_OPTIONS:-} ${4:-} >/dev/null
+    "$2" bake "$scenes/$3/$3.glb" -o "$folder" --quiet ${BAKE_OPTIONS:---size 1024 --quality $quality} ${4:-} >/dev/null
 }
 
-echo "| room, monitor | | points seen | mean abs. error | RMSE | 99 % | largest | wrong by half, opposite, of plain | RMSE of all points | texels inside | seam jumps: 99 %, largest |"
-echo "|---|---|--:|--:|--:|--:|--:|---|--:|--:|---|"
+echo "| room, monitor | | points seen | mean abs. error | RMSE | RMSE by light | 99 % | largest | wrong by half, opposite, of plain | RMSE of all points | texels inside | seam jumps: 99 %, largest |"
+echo "|---|---|--:|--:|--:|--:|--:|--:|---|--:|--:|---|"
 for room in ${ROOMS:-home-theater garage living-room classroom veach-ajar}; do
     bake before "$surimi_before" "$room" "${BEFORE_OPTIONS:-}"
     bake after "$surimi_after" "$room"
@@ -41,7 +42,9 @@ const fs = require("fs"), [room, out] = process.argv.slice(2);
 const lines = file => fs.readFileSync(`${out}/${file}`, "utf8").trim().split("\n");
 const seen = lines(`${room}.visible.txt`).map(Number);
 const points = lines(`${room}.points.csv`).map(line => line.split(",").map(Number));
-const rmse = list => Math.sqrt(list.reduce((sum, x) => sum + x * x, 0) / list.length);
+const sum = list => list.reduce((total, x) => total + x, 0);
+const rmse = (found, weight = () => 1) =>
+    Math.sqrt(sum(found.map(p => weight(p) * p.error * p.error)) / sum(found.map(weight)));
 // name,U,V,map,error,x,y,z of each point that monitor m can light, in the order of the points
 function errors(dump, m, next) {
     const found = [];
@@ -50,7 +53,7 @@ function errors(dump, m, next) {
         const [truth, value, error, ...place] = (dump[next.line++] ?? "").split(",").slice(-6).map(Number);
         if (!place.every((x, axis) => Math.abs(x - point[4 + axis]) < 2e-3))
             throw new Error(`${room}: the points of the two maps differ at line ${next.line}`);
-        found.push({seen: seen[i] === 1, truth, value, error: Math.abs(error)});
+        found.push({seen: seen[i] === 1, light: point[10 + 2 * m], truth, value, error: Math.abs(error)});
     });
     return found;
 }
@@ -68,9 +71,10 @@ for (const when of ["before", "after"]) {
         const seams = after.evidence[monitor.channel].seams;
         const jumps = seams && (when === "before" ? seams.jumpsBefore : seams.jumpsAfter);
         console.log(`| ${room} ${monitor.channel} | ${when} | ${visible.length} | ` +
-            `${(sorted.reduce((sum, x) => sum + x, 0) / sorted.length).toFixed(4)} | ${rmse(sorted).toFixed(4)} | ` +
+            `${(sum(sorted) / sorted.length).toFixed(4)} | ${rmse(visible).toFixed(4)} | ` +
+            `${rmse(visible, p => p.light).toFixed(4)} | ` +
             `${sorted[Math.floor(0.99 * sorted.length)].toFixed(3)} | ${sorted.at(-1).toFixed(3)} | ` +
-            `${half}, ${opposite} of ${plain.length} | ${rmse(all.map(p => p.error)).toFixed(4)} | ` +
+            `${half}, ${opposite} of ${plain.length} | ${rmse(all).toFixed(4)} | ` +
             `${manifest.texels[monitor.channel].inside ?? ""} | ` +
             `${jumps ? `${jumps.percentile99.toFixed(3)}, ${jumps.largest.toFixed(2)}` : ""} |`);
     });
