@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "baker/memory.h"
+#include "baker/post/bilinear_fit.h"
 #include "baker/post/fill.h"
 #include "baker/post/gutter.h"
 #include "baker/post/ratio.h"
@@ -99,9 +100,17 @@ Bake bake(const Scene& scene, const BakeSettings& settings, const Progress& prog
         }
         stopwatch.finish("light from " + monitor.name, evidence.statistics.rays());
         fill(scene, preparation.atlas, preparation.texels, channels, post_settings);
-        // Bilinear reads at a border meet the first ring of the gutter, so that seams are stitched with it.
+        // Bilinear reads at a border meet the first ring of the gutter, so that it is fitted and stitched as well.
         for (size_t p = 0; p < channels.size(); ++p) grow_gutters(preparation.texels[p], channels[p], 1);
         stopwatch.finish("fill " + monitor.name);
+        if (post_settings.fit == Fit::bilinear) {
+            const std::vector<Panel> panels = panels_of(monitor, *preparation.rays);
+            for (size_t p = 0; p < channels.size(); ++p)
+                evidence.fit.add(fit_bilinear(
+                    {scene, preparation.atlas, preparation.texels[p], *preparation.rays, settings.gather.lifts_smooth},
+                    panels, channels[p]));
+            stopwatch.finish("fit " + monitor.name);
+        }
         evidence.seams = stitch(preparation.atlas, preparation.seams, channels);
         stopwatch.finish("seams " + monitor.name);
         for (size_t p = 0; p < channels.size(); ++p) {

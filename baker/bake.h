@@ -10,6 +10,7 @@
 #include "baker/gather/audit.h"
 #include "baker/gather/exposure.h"
 #include "baker/gather/gather.h"
+#include "baker/post/bilinear_fit.h"
 #include "baker/post/channel.h"
 #include "baker/post/stitch.h"
 #include "baker/settings.h"
@@ -32,6 +33,7 @@ struct BakedPage {
 /// How a monitor's channel came about, and how far it is from the truth.
 struct MonitorEvidence {
     GatherStatistics statistics;  ///< of all pages
+    BilinearFit fit;              ///< of all pages; zeros where none was asked for
     StitchReport seams;           ///< of all pages; zeros where none were stitched
     std::vector<Audit> audits;    ///< by page; empty when none was asked for
 };

@@ -8,6 +8,7 @@
 
 #include "baker/gather/audit.h"
 #include "baker/gather/blocks.h"
+#include "baker/post/bilinear_fit.h"
 #include "baker/post/fill.h"
 #include "baker/post/gutter.h"
 #include "baker/post/ratio.h"
@@ -155,6 +156,12 @@ PostSeconds calibrate_post(const Scene& scene, const Preparation& preparation, c
     fill(scene, preparation.atlas, preparation.texels, channels, settings);
     for (size_t p = 0; p < channels.size(); ++p) grow_gutters(preparation.texels[p], channels[p], all_rings);
     seconds.fill = fill_timer.seconds();
+    const Timer fit_timer;
+    const std::vector<Panel> panels =
+        scene.monitors.empty() ? std::vector<Panel>() : panels_of(scene.monitors.front(), *preparation.rays);
+    for (size_t p = 0; p < channels.size() && settings.fit == Fit::bilinear; ++p)
+        fit_bilinear({scene, preparation.atlas, preparation.texels[p], *preparation.rays}, panels, channels[p]);
+    seconds.fit = fit_timer.seconds();
     const Timer seams_timer;
     stitch(preparation.atlas, preparation.seams, channels);
     seconds.seams = seams_timer.seconds();

@@ -41,8 +41,9 @@ Calibration calibrate(const Scene& scene, const Preparation& preparation, size_t
 /// Seconds of wall time of what comes after light, all pages, one monitor.
 struct PostSeconds {
     double fill = 0;   ///< visibility of estimates, values for what has none, gutters
+    double fit = 0;    ///< fitting values to bilinear reads, where it is asked for
     double seams = 0;  ///< stitching them
-    double sum() const { return fill + seams; }
+    double sum() const { return fill + fit + seams; }
 };
 PostSeconds calibrate_post(const Scene& scene, const Preparation& preparation, const PostSettings& settings);
 

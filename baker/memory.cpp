@@ -2,10 +2,16 @@
 #include "baker/memory.h"
 
 #include <fmt/format.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include <algorithm>
+#include <filesystem>
+#include <system_error>
 
 #include "baker/gather/blocks.h"
+#include "baker/post_memory.h"
 #include "runtime/base/error.h"
 
 namespace surimi {
@@ -30,21 +36,95 @@ size_t map_bytes(size_t texels_of_page, size_t pages, size_t monitors) {
     return texels_of_page * pages * (sizeof(Vec3f) + monitors * bytes_of_estimate);
 }
 
-/// As fill() works: three numbers for each texel of the map, and lists of those that have a value (8 bytes, grown by
-/// doubling).
-size_t fill_bytes(const Texels& texels) {
-    const size_t map = static_cast<size_t>(texels.width) * static_cast<size_t>(texels.height);
-    return map * 3 * sizeof(uint32_t) + texels.texels.size() * 3 * sizeof(uint32_t);
+size_t texels_of_page(const Preparation& preparation) {
+    return static_cast<size_t>(preparation.atlas.width) * static_cast<size_t>(preparation.atlas.height);
 }
 
-/// What is held beside what stays, page after page: a band and the page's estimates, when their image is not there
-/// yet; both; or what is filled.
-size_t passing_bytes(const Texels& texels, const GatherSettings& settings) {
-    const size_t map = static_cast<size_t>(texels.width) * static_cast<size_t>(texels.height);
-    const size_t estimates = texels.texels.size() * sizeof(IrradianceEstimate);
-    const size_t channel = map * sizeof(float), to_come = map * bytes_of_estimate;
-    const size_t light = std::max(to_come, estimates + band_bytes(texels, settings)) - to_come;
-    return std::max({light, estimates + channel, channel + fill_bytes(texels)});
+/// More than the last monitor's evidence, which is there when all is done.
+size_t beyond(size_t bytes, const Preparation& preparation) {
+    const size_t evidence = texels_of_page(preparation) * preparation.texels.size() * bytes_of_estimate;
+    return bytes > evidence ? bytes - evidence : 0;
+}
+
+/// Of a page of one monitor: its channel and the image of its estimates.
+size_t channel_bytes(const Preparation& preparation) {
+    return texels_of_page(preparation) * (sizeof(float) + bytes_of_estimate);
+}
+
+/// What bake() holds of a monitor while it gathers, page after page: the pages before, then this one's estimates and a
+/// band of them, or both and what they become.
+size_t light_bytes(const Preparation& preparation, const GatherSettings& settings) {
+    size_t most = 0, before = 0;
+    for (const Texels& texels : preparation.texels) {
+        const size_t estimates = texels.texels.size() * sizeof(IrradianceEstimate);
+        const size_t channel = channel_bytes(preparation);
+        most = std::max(most, before + estimates + std::max(band_bytes(texels, settings), channel));
+        before += channel;
+    }
+    return beyond(most, preparation);
+}
+
+size_t scene_bytes(const Scene& scene) {
+    size_t bytes = 0;
+    for (const auto& image : scene.images) bytes += bytes_of(image.pixels);
+    for (const Surface& surface : scene.surfaces) {
+        bytes += bytes_of(surface.positions) + bytes_of(surface.normals) + bytes_of(surface.triangles) +
+                 bytes_of(surface.source_triangle) + bytes_of(surface.source_vertex);
+        for (const auto& uv : surface.uv_sets) bytes += bytes_of(uv);
+    }
+    return bytes;
+}
+
+/// As write_bake() works: the PNGs, which the baked glb carries, and that glb, which is made, written and read back.
+size_t writing_bytes(const Scene& scene, const Preparation& preparation) {
+    constexpr size_t copies = 4;            // of what a glb holds: as it comes, edited, as one buffer, as a file
+    constexpr size_t decoded = 4, raw = 3;  // bytes of a texel
+    const size_t map = texels_of_page(preparation), pages = preparation.texels.size();
+    const size_t png = map * scene.monitors.size() / 3;  // a byte a texel of three monitors: noisy
+    std::error_code ignored;
+    const auto file = static_cast<size_t>(std::filesystem::file_size(scene.path, ignored));
+    const size_t at_once = std::min(pages, static_cast<size_t>(thread_count()));
+    const size_t made = copies * ((ignored ? 0 : file) + pages * png);
+    return pages * png + std::max(made, made / 2 + scene_bytes(scene) + map * (pages * decoded + at_once * raw));
+}
+
+/// What the process holds now, without what it could give back.
+size_t held_bytes() {
+#ifdef __GLIBC__
+    malloc_trim(0);
+#endif
+    return resident_bytes();
+}
+
+/// All that does not depend on the height of a band, and what the process holds.
+PlannedMemory memory_without_bands(const Scene& scene, const Preparation& preparation, const BakeSettings& settings) {
+    PlannedMemory memory;
+    const size_t channels = preparation.texels.size() * channel_bytes(preparation);
+    memory.map = map_bytes(texels_of_page(preparation), preparation.texels.size(), scene.monitors.size());
+    for (const Texels& texels : preparation.texels) {
+        memory.texels += bytes_of(texels.texels) + bytes_of(texels.triangles);
+        if (settings.audit > 0) memory.audit = std::max(memory.audit, audit_bytes(texels));
+    }
+    for (size_t m = 0; m < scene.monitors.size(); ++m)
+        memory.post =
+            std::max(memory.post, beyond(channels + post_bytes(scene, preparation, m, settings.post), preparation));
+    const Silhouettes& s = preparation.silhouettes;
+    memory.silhouettes =
+        bytes_of(s.planes) + bytes_of(s.edges) + bytes_of(s.nodes) + bytes_of(s.cutout_nodes) + bytes_of(s.cutouts);
+    for (const auto& planes : s.plane_of) memory.silhouettes += bytes_of(planes);
+    memory.writing = writing_bytes(scene, preparation);
+    memory.embree = preparation.rays_bytes;
+    return memory;
+}
+
+void add_bands(PlannedMemory& memory, const Preparation& preparation, GatherSettings settings, int rows, size_t held) {
+    settings.band_rows = rows;
+    memory.band_rows = rows;
+    memory.light = light_bytes(preparation, settings);
+    memory.passing = std::max({memory.light, memory.post, memory.audit});
+    const size_t gone = memory.texels + memory.silhouettes;  // when files are written
+    const size_t most = std::max(memory.passing, memory.writing > gone ? memory.writing - gone : 0);
+    memory.peak = std::max(peak_resident_bytes(), held + memory.map + most);
 }
 
 [[noreturn]] void throw_too_much(const std::string& what, size_t bytes, size_t bound) {
@@ -58,20 +138,9 @@ size_t passing_bytes(const Texels& texels, const GatherSettings& settings) {
 }  // namespace
 
 PlannedMemory planned_memory(const Scene& scene, const Preparation& preparation, const BakeSettings& settings) {
-    PlannedMemory memory;
-    const Atlas& atlas = preparation.atlas;
-    const size_t page = static_cast<size_t>(atlas.width) * static_cast<size_t>(atlas.height);
-    memory.map = map_bytes(page, preparation.texels.size(), scene.monitors.size());
-    for (const Texels& texels : preparation.texels) {
-        memory.texels += bytes_of(texels.texels) + bytes_of(texels.triangles);
-        memory.passing = std::max(memory.passing, passing_bytes(texels, settings.gather));
-    }
-    const Silhouettes& s = preparation.silhouettes;
-    memory.silhouettes =
-        bytes_of(s.planes) + bytes_of(s.edges) + bytes_of(s.nodes) + bytes_of(s.cutout_nodes) + bytes_of(s.cutouts);
-    for (const auto& planes : s.plane_of) memory.silhouettes += bytes_of(planes);
-    memory.embree = preparation.rays_bytes;
-    memory.peak = std::max(peak_resident_bytes(), resident_bytes() + memory.map + memory.passing);
+    const size_t held = held_bytes();
+    PlannedMemory memory = memory_without_bands(scene, preparation, settings);
+    add_bands(memory, preparation, settings.gather, rows_of_band(preparation.atlas.width, settings.gather), held);
     return memory;
 }
 
@@ -86,14 +155,14 @@ int most_rows_within(size_t bound, int rows, const std::function<size_t(int)>& b
 int rows_within_memory(const Scene& scene, const Preparation& preparation, const BakeSettings& settings) {
     const int wanted = rows_of_band(preparation.atlas.width, settings.gather);
     if (settings.memory == 0) return wanted;
-    size_t peak = 0;
+    const size_t held = held_bytes();
+    PlannedMemory memory = memory_without_bands(scene, preparation, settings);
     const int rows = most_rows_within(settings.memory, wanted, [&](int tried) {
-        BakeSettings in_bands = settings;
-        in_bands.gather.band_rows = tried;
-        return peak = planned_memory(scene, preparation, in_bands).peak;
+        add_bands(memory, preparation, settings.gather, tried, held);
+        return memory.peak;
     });
     if (rows == 0)
-        throw_too_much(fmt::format("this bake, even in bands of {} rows of the map, takes", tile_size), peak,
+        throw_too_much(fmt::format("this bake, even in bands of {} rows of the map, takes", tile_size), memory.peak,
                        settings.memory);
     return rows;
 }
@@ -107,6 +176,14 @@ void check_memory_of_maps(const Scene& scene, const BakeSettings& settings) {
         throw_too_much(fmt::format("{} x {} texels of map and evidence (monitors: {}) take", unwrap.width,
                                    unwrap.height, scene.monitors.size()),
                        bytes, settings.memory);
+}
+
+void return_large_memory() {
+#ifdef __GLIBC__
+    constexpr int large = 1 << 20;
+    mallopt(M_MMAP_THRESHOLD, large);  // else it grows with what is given back
+    mallopt(M_TRIM_THRESHOLD, large);
+#endif
 }
 
 }  // namespace surimi

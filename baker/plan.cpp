@@ -71,6 +71,12 @@ class StageList {
             fmt::format("{} of the map has no light of its own: gutters, and texels that face away",
                         percent(map_texels() - c.lit, map_texels())),
             post.fill);
+        const bool fits = settings_.post.fit == Fit::bilinear;
+        add("fit " + monitor.name,
+            fits ? "values are fitted so that bilinear reads average to what is measured"
+                 : "not asked for: --fit bilinear",
+            post.fit)
+            .runs = fits;
         const size_t pieces = preparation_.seams.pieces.size();
         add("seams " + monitor.name,
             !settings_.post.stitches_seams ? "turned off"

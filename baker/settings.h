@@ -18,7 +18,7 @@ struct BakeSettings {
     GatherSettings gather;
     PostSettings post;
     size_t audit = 0;   ///< texels of each monitor to check against many rays; 0: none
-    size_t memory = 0;  ///< bytes that the process may take until the maps are done; 0: no bound
+    size_t memory = 0;  ///< bytes that the process may take, files included; 0: no bound
 };
 
 /// The remedy for one artefact. All are on unless the user turns them off.

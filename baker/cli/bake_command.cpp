@@ -14,6 +14,7 @@
 #include "baker/cli/options.h"
 #include "baker/cli/progress.h"
 #include "baker/cli/time_budget.h"
+#include "baker/memory.h"
 #include "baker/write/output.h"
 #include "runtime/base/error.h"
 
@@ -42,6 +43,7 @@ int bake_scene(const Given& given, const std::filesystem::path& out) {
         return 0;
     }
     set_thread_count(config.threads);
+    return_large_memory();
     const Scene scene = load_scene(given, config);
     Bake result;
     with_picture_of_faults(scene, config.bake.unwrap, out, [&] {

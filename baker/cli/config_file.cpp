@@ -166,6 +166,7 @@ void read_gather_key(const std::string& key, const toml::node& node, const Place
     if (key == "audit") wishes.audit = value_of<int>(node, key, place);
     if (key == "strict") wishes.is_strict = value_of<bool>(node, key, place);
     if (key == "supersample") wishes.supersample = value_of<int>(node, key, place);
+    if (key == "fit") wishes.fit = value_of<std::string>(node, key, place);
     if (key == "memory") wishes.memory = value_of<int>(node, key, place);
     if (key == "seed") wishes.seed = static_cast<uint64_t>(value_of<int64_t>(node, key, place));
 }
@@ -199,7 +200,7 @@ void read_config_file(const std::filesystem::path& path, Config& config) {
     check_keys(table, {"size",        "density", "gutter", "mips",   "atlases", "stretch", "uv",
                        "uv-quality",  "uniform", "error",  "exact",  "quality", "time",    "method",
                        "samples",     "audit",   "strict", "seed",   "threads", "monitor", "texel_scale",
-                       "supersample", "memory",  "glass",  "object", "without"},
+                       "supersample", "memory",  "glass",  "object", "without", "fit"},
                place);
     if (table.contains("size") && table.contains("density"))
         place.fail(*table.get("density"), "\"size\" and \"density\" exclude each other: one follows from the other");

@@ -21,6 +21,7 @@ namespace surimi {
 namespace {
 
 constexpr std::array methods{Method::automatic, Method::split, Method::scanline, Method::monte_carlo};
+constexpr std::array fits{Fit::none, Fit::bilinear};
 
 struct Quality {
     const char* name;
@@ -41,13 +42,19 @@ void require(bool holds, const std::string& source, const std::string& what) {
                                               what, fmt::join(names, ", "), text, nearest(text, names)));
 }
 
-Method parse_method(const std::string& text, const std::string& source) {
+/// The one of `choices` that has this name.
+template <class Choices>
+auto parse_choice(const Choices& choices, const char* what, const std::string& text, const std::string& source) {
     std::vector<std::string> names;
-    for (const Method method : methods) {
-        if (text == name_of(method)) return method;
-        names.push_back(name_of(method));
+    for (const auto choice : choices) {
+        if (text == name_of(choice)) return choice;
+        names.push_back(name_of(choice));
     }
-    throw_unknown(source, "method", text, names);
+    throw_unknown(source, what, text, names);
+}
+
+Method parse_method(const std::string& text, const std::string& source) {
+    return parse_choice(methods, "method", text, source);
 }
 
 const Quality& parse_quality(const std::string& text, const std::string& source) {
@@ -153,6 +160,10 @@ std::string name_of(Method method) {
     }
 }
 
+std::string name_of(Fit fit) {
+    return fit == Fit::bilinear ? "bilinear" : "none";
+}
+
 // The environment is a source of its own (environment_wishes), so that options win where both exclude each other; the
 // text beside an option names its variable as CLI11 does for those that it reads itself.
 void add_gather_options(CLI::App& app, GatherWishes& wishes) {
@@ -186,9 +197,15 @@ void add_gather_options(CLI::App& app, GatherWishes& wishes) {
     app.add_option("--supersample", wishes.supersample,
                    "Gather light on N x N subtexels of each texel, 1 to 4, then average what arrives [1]")
         ->option_text("N (Env:SURIMI_SUPERSAMPLE)");
+    app.add_option(
+           "--fit", wishes.fit,
+           "What a texel's value stands for. none: the visibility measured on average over the texel; bilinear: "
+           "values whose bilinear reads average to that, for less error in penumbras and slight halos beside "
+           "shadows sharper than a texel [none]")
+        ->option_text("none|bilinear (Env:SURIMI_FIT)");
     app.add_option("--memory", wishes.memory,
-                   "MiB that the bake may take: the map is lit in bands of rows that keep within it; the map itself "
-                   "must fit, and writing it comes on top; 0: no bound [0]")
+                   "MiB that the bake may take, up to its files: the map is lit in bands of rows that keep within it; "
+                   "the map itself must fit; 0: no bound [0]")
         ->option_text("MIB (Env:SURIMI_MEMORY)");
 }
 
@@ -203,6 +220,7 @@ GatherWishes environment_wishes() {
             truth("SURIMI_STRICT"),
             integer<uint64_t>("SURIMI_SEED"),
             integer<int>("SURIMI_SUPERSAMPLE"),
+            variable("SURIMI_FIT"),
             integer<int>("SURIMI_MEMORY")};
 }
 
@@ -233,6 +251,7 @@ void apply(const GatherWishes& wishes, const std::string& source, Config& config
     if (wishes.samples) gather.samples = *wishes.samples;
     if (wishes.seed) gather.seed = *wishes.seed;
     if (wishes.supersample) gather.supersample = *wishes.supersample;
+    if (wishes.fit) config.bake.post.fit = parse_choice(fits, "fit", *wishes.fit, source);
     if (wishes.memory) config.bake.memory = static_cast<size_t>(*wishes.memory) << 20;
     if (wishes.audit) config.bake.audit = static_cast<size_t>(*wishes.audit);
     if (wishes.is_strict) config.is_strict = *wishes.is_strict;
@@ -264,6 +283,7 @@ std::string gather_toml(const Config& config) {
     text += fmt::format("strict = {}         # exit with 5 when the error is not reached\n", config.is_strict);
     text += fmt::format("seed = {}\n", gather.seed);
     text += fmt::format("supersample = {}          # subtexels along a texel's side\n", gather.supersample);
+    text += fmt::format("fit = \"{}\"             # none, bilinear\n", name_of(config.bake.post.fit));
     text += fmt::format("memory = {}               # MiB; 0: no bound\n", config.bake.memory >> 20);
     return text;
 }
@@ -278,6 +298,7 @@ void add_gather_json(const Config& config, nlohmann::ordered_json& json) {
     json["audit"] = config.bake.audit;
     json["seed"] = gather.seed;
     json["supersample"] = gather.supersample;
+    json["fit"] = name_of(config.bake.post.fit);
 }
 
 }  // namespace surimi

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How exact a bake shall be, and how that is proved: options, environment and settings file on one footing.
+// How exact a bake shall be, what its values stand for, and how that is proved: options, environment and settings file
+// on one footing.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +10,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "baker/gather/settings.h"
+#include "baker/post/settings.h"
 
 namespace CLI {
 class App;
@@ -30,10 +32,12 @@ struct GatherWishes {
     std::optional<bool> is_strict;
     std::optional<uint64_t> seed;
     std::optional<int> supersample;
+    std::optional<std::string> fit;
     std::optional<int> memory;  ///< MiB
 };
 
-/// --error, --exact, --quality, --time, --method, --samples, --audit, --strict, --seed, --supersample, --memory.
+/// --error, --exact, --quality, --time, --method, --samples, --audit, --strict, --seed, --supersample, --fit,
+/// --memory.
 void add_gather_options(CLI::App& app, GatherWishes& wishes);
 
 /// What SURIMI_ERROR, SURIMI_EXACT and so on say. Throws Error(usage) for values of the wrong type.
@@ -49,6 +53,9 @@ void check_samples(const GatherSettings& settings);
 
 /// "auto", "split", "scanline" or "mc".
 std::string name_of(Method method);
+
+/// "none" or "bilinear".
+std::string name_of(Fit fit);
 
 /// Lines of TOML that give the same settings when they are read.
 std::string gather_toml(const Config& config);

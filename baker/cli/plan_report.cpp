@@ -97,6 +97,31 @@ std::string comparison_text(const Comparison& comparison) {
     return text;
 }
 
+std::string memory_text(const PlannedMemory& memory) {
+    std::string text = fmt::format(
+        "  memory: map {}, texels {}, silhouettes {}, Embree {}; passing {}: light {} in bands "
+        "of {} rows, fill and seams {}",
+        bytes(memory.map), bytes(memory.texels), bytes(memory.silhouettes), bytes(memory.embree), bytes(memory.passing),
+        bytes(memory.light), memory.band_rows, bytes(memory.post));
+    if (memory.audit > 0) text += ", audit " + bytes(memory.audit);
+    return text + fmt::format("; then files {}\n", bytes(memory.writing));
+}
+
+/// What follows from scene and settings alone.
+Json memory_json(const PlannedMemory& memory) {
+    return {{"map", memory.map},
+            {"texels", memory.texels},
+            {"silhouettes", memory.silhouettes},
+            {"post", memory.post},
+            {"audit", memory.audit}};
+}
+
+/// What follows from the machine, too; bands do where memory is bounded.
+Json memory_run_json(const PlannedMemory& memory) {
+    return {{"bandRows", memory.band_rows}, {"light", memory.light},   {"passing", memory.passing},
+            {"writing", memory.writing},    {"embree", memory.embree}, {"peak", memory.peak}};
+}
+
 Json blocks_json(const BlockCounts& blocks) {
     return {{"seen", blocks.seen},
             {"unlit", blocks.unlit},
@@ -165,7 +190,7 @@ Json run_json(const Scene& scene, const Plan& plan, const Comparison* comparison
     Json run{{"seconds", plan.seconds()},
              {"stages", stages},
              {"monitors", monitors},
-             {"memory", {{"embree", plan.memory.embree}, {"peak", plan.memory.peak}}}};
+             {"memory", memory_run_json(plan.memory)}};
     if (comparison) run["comparison"] = comparison_json(*comparison);
     return run;
 }
@@ -185,9 +210,8 @@ std::string plan_text(const Scene& scene, const Plan& plan, const BakeSettings& 
     }
     text += "stages\n";
     for (const PlannedStage& stage : plan.stages) text += stage_text(stage);
-    text += fmt::format("foretold: {:.1f} s, {:.1f} M rays, {} (map {}, texels {}, silhouettes {}, Embree {})\n",
-                        plan.seconds(), plan.rays() / 1e6, bytes(plan.memory.peak), bytes(plan.memory.map),
-                        bytes(plan.memory.texels), bytes(plan.memory.silhouettes), bytes(plan.memory.embree));
+    text += fmt::format("foretold: {:.1f} s, {:.1f} M rays, {}\n{}", plan.seconds(), plan.rays() / 1e6,
+                        bytes(plan.memory.peak), memory_text(plan.memory));
     for (size_t m = 0; m < plan.monitors.size(); ++m) {
         const Calibration& c = plan.monitors[m].calibration;
         if (c.lit > 0)
@@ -208,22 +232,20 @@ std::string plan_json(const Scene& scene, const Plan& plan, const std::string& s
                           {"runs", stage.runs},
                           {"why", stage.why},
                           {"rays", std::round(stage.rays)}});
-    const Json json{
-        {"scene", scene.path.filename().string()},
-        {"settings", Json::parse(settings)},
-        {"map",
-         {{"width", plan.width},
-          {"height", plan.height},
-          {"pages", plan.pages},
-          {"texelsPerMetre", plan.texels_per_metre},
-          {"texels", plan.texels}}},
-        {"monitors", monitors},
-        {"stages", stages},
-        {"rays", std::round(plan.rays())},
-        {"memory",
-         {{"map", plan.memory.map}, {"texels", plan.memory.texels}, {"silhouettes", plan.memory.silhouettes}}},
-        {"warnings", plan.warnings},
-        {"run", run_json(scene, plan, comparison)}};
+    const Json json{{"scene", scene.path.filename().string()},
+                    {"settings", Json::parse(settings)},
+                    {"map",
+                     {{"width", plan.width},
+                      {"height", plan.height},
+                      {"pages", plan.pages},
+                      {"texelsPerMetre", plan.texels_per_metre},
+                      {"texels", plan.texels}}},
+                    {"monitors", monitors},
+                    {"stages", stages},
+                    {"rays", std::round(plan.rays())},
+                    {"memory", memory_json(plan.memory)},
+                    {"warnings", plan.warnings},
+                    {"run", run_json(scene, plan, comparison)}};
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -89,7 +89,7 @@ TexelSurface exposed_surface(const Receivers& receivers, const Texel& texel, std
     }
     keep_free_pieces(rays, texel, surface);
     // What a smooth surface touches would be behind what is lifted.
-    if (receivers.lifts_smooth && !texel.is_touched) lift_pieces(rays, surface);
+    if (receivers.lifts_smooth && !texel.is_touched) lift_pieces(rays, panels, surface);
     return surface;
 }
 

@@ -76,7 +76,8 @@ void set_errors(Measurement& measurement, std::span<const double> values, std::s
 TexelSurface surface_of(const Subject& subject, const StudiedTexel& texel) {
     const Texels& texels = subject.selection.blocks[texel.monitor][texel.page];
     TexelSurface surface(subject.scene, subject.atlas, texels, texels.texels[texel.texel]);
-    lift_pieces(subject.monitors[texel.monitor].rays, surface);
+    const StudiedMonitor& light = subject.monitors[texel.monitor];
+    lift_pieces(light.rays, panels_of(light.monitor(), light.rays), surface);
     return surface;
 }
 

@@ -86,6 +86,14 @@ Json audits_json(const std::vector<Audit>& audits) {
     return json;
 }
 
+Json fit_json(const BilinearFit& fit) {
+    return {{"texelsMoved", fit.texels},
+            {"largestMove", fit.largest_move},
+            {"rmsBefore", fit.rms_before},
+            {"rmsAfter", fit.rms_after},
+            {"rounds", fit.rounds}};
+}
+
 Json jumps_json(const Jumps& jumps) {
     return {{"largest", jumps.largest}, {"percentile99", jumps.percentile_99}};
 }
@@ -117,6 +125,7 @@ Json evidence_section(const Scene& scene, const Bake& bake) {
                   {"errorHistogram", histogram_json(evidence.statistics)},
                   {"methods", methods_json(evidence.statistics)}};
         json.update(work_json(evidence.statistics));
+        if (evidence.fit.rounds > 0) json["fit"] = fit_json(evidence.fit);
         json["seams"] = seams_json(evidence.seams);
         if (!evidence.audits.empty()) json["audit"] = audits_json(evidence.audits);
         return json;

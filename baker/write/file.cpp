@@ -44,6 +44,17 @@ void make_folder(const std::filesystem::path& folder) {
                         "; choose another folder with -o");
 }
 
+bool read_pieces(const std::filesystem::path& path, const std::function<void(std::span<const uint8_t>)>& visit) {
+    constexpr size_t piece = 1 << 20;
+    std::ifstream file(path, std::ios::binary);
+    std::vector<uint8_t> bytes(piece);
+    while (file) {
+        file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(piece));
+        visit(std::span(bytes).first(static_cast<size_t>(file.gcount())));
+    }
+    return file.eof();
+}
+
 void write_bytes(const std::filesystem::path& path, std::span<const uint8_t> bytes) {
     std::ofstream file(path, std::ios::binary);
     file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));

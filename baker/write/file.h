@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -34,6 +35,9 @@ void make_folder(const std::filesystem::path& folder);
 
 /// Writes bytes to a file that exists only once it is complete. Throws Error(cannot_write).
 void write_file(const std::filesystem::path& path, std::span<const uint8_t> bytes);
+
+/// Calls `visit` with all bytes of a file, a piece at a time. False where it cannot be read.
+bool read_pieces(const std::filesystem::path& path, const std::function<void(std::span<const uint8_t>)>& visit);
 
 /// Writes bytes in place, for a name from PendingFiles::add. Throws Error(cannot_write).
 void write_bytes(const std::filesystem::path& path, std::span<const uint8_t> bytes);

@@ -16,30 +16,26 @@ std::string layer_name(const Scene& scene, const Monitor& monitor) {
 
 }  // namespace
 
-Channels lightmap_channels(const Scene& scene, const BakedPage& page) {
-    Channels channels;
-    channels.width = page.map.visibility.width;
-    channels.height = page.map.visibility.height;
+ChannelLayout lightmap_layout(const Scene& scene, const BakedPage& page) {
+    ChannelLayout layout{page.map.visibility.width, page.map.visibility.height, {}};
     for (const Monitor& monitor : scene.monitors)
         for (const char* quantity : {".shadowed", ".unshadowed", ".error", ".method", ".state"})
-            channels.names.push_back(layer_name(scene, monitor) + quantity);
-    const size_t texel_count = static_cast<size_t>(channels.width) * static_cast<size_t>(channels.height);
-    channels.values.reserve(texel_count * channels.names.size());
-    for (size_t i = 0; i < texel_count; ++i)
+            layout.names.push_back(layer_name(scene, monitor) + quantity);
+    return layout;
+}
+
+void give_lightmaps(const Scene& scene, const BakedPage& page, int begin, std::span<float> values) {
+    size_t i = page.map.visibility.index(0, begin);
+    for (auto value = values.begin(); value != values.end(); ++i)
         for (const Monitor& monitor : scene.monitors) {
             const auto c = static_cast<size_t>(monitor.channel);
-            assert(page.irradiance[c].pixels.size() == texel_count && page.state[c].pixels.size() == texel_count);
+            assert(i < page.irradiance[c].pixels.size() && i < page.state[c].pixels.size());
             const IrradianceEstimate& estimate = page.irradiance[c].pixels[i];
             const auto state = static_cast<float>(page.state[c].pixels[i]);
             const auto method = static_cast<float>(estimate.method);
-            channels.values.insert(channels.values.end(),
-                                   {estimate.shadowed, estimate.unshadowed, estimate.error, method, state});
+            for (const float one : {estimate.shadowed, estimate.unshadowed, estimate.error, method, state})
+                *value++ = one;
         }
-    return channels;
-}
-
-void write_lightmaps(const std::filesystem::path& path, const Channels& channels) {
-    write_exr(path, channels, ExrDepth::full);
 }
 
 }  // namespace surimi

@@ -3,7 +3,7 @@
 // where.
 #pragma once
 
-#include <filesystem>
+#include <span>
 
 #include "baker/bake.h"
 #include "runtime/image/image_file.h"
@@ -13,9 +13,9 @@ namespace surimi {
 /// For every monitor the channels NAME.shadowed and NAME.unshadowed (texel averages of S and E at unit
 /// radiance, W/m^2 per W/m^2/sr), NAME.error (standard error of S / E), NAME.method and NAME.state (the numbers of
 /// TexelMethod and TexelState). NAME is the monitor's, with its channel added ("TV_G") where two monitors share a name.
-Channels lightmap_channels(const Scene& scene, const BakedPage& page);
+ChannelLayout lightmap_layout(const Scene& scene, const BakedPage& page);
 
-/// Writes them as an EXR of floats. Throws Error(cannot_write).
-void write_lightmaps(const std::filesystem::path& path, const Channels& channels);
+/// Their values from this row of the page on, as many as `values` holds.
+void give_lightmaps(const Scene& scene, const BakedPage& page, int begin, std::span<float> values);
 
 }  // namespace surimi

@@ -161,13 +161,21 @@ Json outputs_section(const std::vector<ManifestFile>& files, int page_count) {
 
 }  // namespace
 
-std::string content_hash(std::span<const uint8_t> bytes) {
-    uint64_t hash = 0xCBF29CE484222325;  // offset basis of the 64-bit FNV-1a
+void ContentHash::add(std::span<const uint8_t> bytes) {
     constexpr uint64_t prime = 0x00000100000001B3;
-    for (const uint8_t byte : bytes) hash = (hash ^ byte) * prime;
+    for (const uint8_t byte : bytes) hash_ = (hash_ ^ byte) * prime;
+}
+
+std::string ContentHash::text() const {
     std::string text = "fnv1a64:";
-    for (int shift = 60; shift >= 0; shift -= 4) text += "0123456789abcdef"[hash >> shift & 0xF];
+    for (int shift = 60; shift >= 0; shift -= 4) text += "0123456789abcdef"[hash_ >> shift & 0xF];
     return text;
+}
+
+std::string content_hash(std::span<const uint8_t> bytes) {
+    ContentHash hash;
+    hash.add(bytes);
+    return hash.text();
 }
 
 std::string make_manifest(const Scene& scene, const Bake& bake, const std::string& settings_json,

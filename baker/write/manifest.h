@@ -11,8 +11,18 @@
 
 namespace surimi {
 
-/// "fnv1a64:" and sixteen hexadecimal digits: tells whether two files are the same, not who made them
-/// (Fowler, Noll and Vo 1991).
+/// Tells whether two files are the same, not who made them (Fowler, Noll and Vo 1991).
+class ContentHash {
+  public:
+    void add(std::span<const uint8_t> bytes);
+    /// "fnv1a64:" and sixteen hexadecimal digits.
+    std::string text() const;
+
+  private:
+    uint64_t hash_ = 0xCBF29CE484222325;  // offset basis of the 64-bit FNV-1a
+};
+
+/// Of all these bytes.
 std::string content_hash(std::span<const uint8_t> bytes);
 
 /// A finished output file.

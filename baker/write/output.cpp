@@ -52,36 +52,56 @@ bool is_half_of(float stored, float value) {
     return std::abs(stored - value) <= std::max(std::abs(value) * 0x1p-11f, 0x1p-25f);
 }
 
+/// Reads a draft back in rows. `give`: what was written; `is_same`: stored value, value.
+template <class IsSame>
+void require_channels(const Draft& draft, const ChannelLayout& layout, const GiveRows<float>& give,
+                      const IsSame& is_same) {
+    std::vector<size_t> place;  // of each channel among those of the file
+    const size_t count = layout.names.size();
+    const auto compare_layout = [&](const ChannelLayout& back) {
+        draft.require(back.width == layout.width && back.height == layout.height && back.names.size() == count,
+                      "it has another size");
+        for (const std::string& name : layout.names) {
+            const auto found = std::find(back.names.begin(), back.names.end(), name);
+            draft.require(found != back.names.end(), "it lacks a channel");
+            place.push_back(static_cast<size_t>(found - back.names.begin()));
+        }
+    };
+    std::vector<float> written;
+    read_rows(draft.temporary, compare_layout, [&](int begin, int end, std::span<const float> stored) {
+        written.resize(stored.size());
+        give(begin, end, written);
+        for (size_t i = 0; i < written.size(); i += count)
+            for (size_t c = 0; c < count; ++c)
+                draft.require(is_same(stored[i + place[c]], written[i + c]), "it has other values");
+    });
+}
+
 void write_visibility_exr(const Draft& draft, const VisibilityMap& map) {
     write_map_exr(draft.temporary, map);
-    const VisibilityMap back = read_map_exr(draft.temporary);
-    const auto& pixels = map.visibility.pixels;
-    draft.require(back.visibility.width == map.visibility.width && back.visibility.pixels.size() == pixels.size(),
-                  "it has another size");
-    for (size_t i = 0; i < pixels.size(); ++i)
-        for (int c = 0; c < 3; ++c)
-            draft.require(is_half_of(back.visibility.pixels[i][c], pixels[i][c]), "it has other values");
+    require_channels(
+        draft, map_layout(map), [&](int begin, int, std::span<float> values) { give_map(map, begin, values); },
+        is_half_of);
 }
 
 void write_exact(const Draft& draft, std::span<const uint8_t> bytes) {
     write_bytes(draft.temporary, bytes);
-    const auto back = read_file(draft.temporary);
-    draft.require(back && std::equal(back->begin(), back->end(), bytes.begin(), bytes.end()), "it has other bytes");
+    std::span<const uint8_t> rest = bytes;
+    bool is_same = true;
+    const bool is_read = read_pieces(draft.temporary, [&](std::span<const uint8_t> piece) {
+        is_same = is_same && piece.size() <= rest.size() && std::equal(piece.begin(), piece.end(), rest.begin());
+        if (is_same) rest = rest.subspan(piece.size());
+    });
+    draft.require(is_read && is_same && rest.empty(), "it has other bytes");
 }
 
 void write_evidence(const Draft& draft, const Scene& scene, const BakedPage& page) {
-    const Channels channels = lightmap_channels(scene, page);
-    write_lightmaps(draft.temporary, channels);
-    const Channels back = read_channels(draft.temporary);
-    const size_t count = channels.names.size();
-    draft.require(back.width == channels.width && back.values.size() == channels.values.size(), "it has another size");
-    for (size_t c = 0; c < count; ++c) {
-        const auto found = std::find(back.names.begin(), back.names.end(), channels.names[c]);
-        draft.require(found != back.names.end(), "it lacks a channel");
-        const auto b = static_cast<size_t>(found - back.names.begin());
-        for (size_t i = c, j = b; i < channels.values.size(); i += count, j += count)
-            draft.require(back.values[j] == channels.values[i], "it has other values");
-    }
+    const ChannelLayout layout = lightmap_layout(scene, page);
+    const GiveRows<float> give = [&](int begin, int, std::span<float> values) {
+        give_lightmaps(scene, page, begin, values);
+    };
+    write_exr(draft.temporary, layout, ExrDepth::full, give);
+    require_channels(draft, layout, give, std::equal_to<float>());
 }
 
 /// Triangles of the monitors that the configuration describes; they are surfaces of the baked file only.
@@ -123,9 +143,14 @@ void write_baked_scene(const Draft& draft, const Scene& scene, const Bake& bake,
 }
 
 ManifestFile describe(const Draft& draft, const char* role, int page = -1) {
-    const auto bytes = read_file(draft.temporary);
-    draft.require(bytes.has_value(), "it is gone");
-    return {role, draft.path.filename().string(), bytes->size(), content_hash(*bytes), page};
+    ContentHash hash;
+    size_t size = 0;
+    const bool is_read = read_pieces(draft.temporary, [&](std::span<const uint8_t> piece) {
+        hash.add(piece);
+        size += piece.size();
+    });
+    draft.require(is_read, "it is gone");
+    return {role, draft.path.filename().string(), size, hash.text(), page};
 }
 
 }  // namespace
@@ -155,8 +180,8 @@ OutputPaths write_bake(const std::filesystem::path& out, const Scene& scene, con
     const OutputPaths paths = output_paths(out, scene.path, bake.pages.size());
     check_targets(paths, scene.path);
     make_folder(out);
-    const auto input = read_file(scene.path);
-    if (!input)
+    ContentHash input;
+    if (!read_pieces(scene.path, [&](std::span<const uint8_t> piece) { input.add(piece); }))
         throw Error(ErrorKind::scene, scene.path.string() + ": cannot be read any more; was it moved during the bake?");
 
     PendingFiles pending;
@@ -181,7 +206,7 @@ OutputPaths write_bake(const std::filesystem::path& out, const Scene& scene, con
     write_baked_scene(glb, scene, bake, {{pngs.begin(), pngs.end()}, bake.pages[0].map.monitors});
     files.push_back(describe(glb, "bakedGlb"));
 
-    const std::string manifest = make_manifest(scene, bake, settings_json, content_hash(*input), files);
+    const std::string manifest = make_manifest(scene, bake, settings_json, input.text(), files);
     write_exact(draft(paths.manifest_json), {reinterpret_cast<const uint8_t*>(manifest.data()), manifest.size()});
     pending.commit();
     return paths;

@@ -14,6 +14,7 @@ namespace surimi {
 namespace {
 
 constexpr int largest_side = 16384;  // the largest texture that common GPUs take
+constexpr int rows_at_a_time = 64;   // whole blocks of the EXR's compression, which takes 16, for some threads
 
 /// Name of OpenImageIO's reader: by the first bytes, since extensions and MIME types lie, else by the extension.
 std::string reader_for(std::span<const uint8_t> bytes, const std::string& name) {
@@ -32,6 +33,26 @@ std::unique_ptr<OIIO::ImageInput> open_memory(OIIO::Filesystem::IOMemReader& mem
     config.attribute("oiio:UnassociatedAlpha", 1);
     if (!input || !input->set_ioproxy(&memory) || !input->open(reader, spec, config)) return nullptr;
     return input;
+}
+
+/// Calls visit(begin, end) for all rows.
+template <class Visit>
+void for_rows(int height, const Visit& visit) {
+    for (int begin = 0; begin < height; begin += rows_at_a_time) visit(begin, std::min(begin + rows_at_a_time, height));
+}
+
+std::unique_ptr<OIIO::ImageInput> open_file(const std::filesystem::path& path) {
+    auto input = OIIO::ImageInput::open(path.string());
+    if (!input)
+        throw Error(ErrorKind::scene, path.string() + ": cannot be read as an image (" + OIIO::geterror() + ")");
+    const OIIO::ImageSpec& spec = input->spec();
+    if (spec.width < 1 || spec.height < 1 || spec.width > largest_side || spec.height > largest_side || spec.depth > 1)
+        throw Error(ErrorKind::scene, path.string() + ": image size is not supported; at most 16384 x 16384");
+    return input;
+}
+
+[[noreturn]] void fail_to_read(const std::filesystem::path& path, const OIIO::ImageInput& input) {
+    throw Error(ErrorKind::scene, path.string() + ": image is damaged (" + input.geterror() + ")");
 }
 
 [[noreturn]] void fail_to_write(const std::filesystem::path& path, const std::string& why) {
@@ -65,23 +86,45 @@ Image<glm::u8vec4> decode_image(std::span<const uint8_t> bytes, const std::strin
 }
 
 Channels read_channels(const std::filesystem::path& path) {
-    const auto input = OIIO::ImageInput::open(path.string());
-    if (!input)
-        throw Error(ErrorKind::scene, path.string() + ": cannot be read as an image (" + OIIO::geterror() + ")");
+    const auto input = open_file(path);
     const OIIO::ImageSpec& spec = input->spec();
-    if (spec.width < 1 || spec.height < 1 || spec.width > largest_side || spec.height > largest_side || spec.depth > 1)
-        throw Error(ErrorKind::scene, path.string() + ": image size is not supported; at most 16384 x 16384");
     Channels channels{spec.width, spec.height, spec.channelnames, {}};
     channels.values.resize(static_cast<size_t>(spec.image_pixels()) * static_cast<size_t>(spec.nchannels));
     if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, channels.values.data()))
-        throw Error(ErrorKind::scene, path.string() + ": image is damaged (" + input->geterror() + ")");
+        fail_to_read(path, *input);
     return channels;
 }
 
+void read_rows(const std::filesystem::path& path, const std::function<void(const ChannelLayout&)>& begin,
+               const TakeRows& take) {
+    const auto input = open_file(path);
+    const OIIO::ImageSpec& spec = input->spec();
+    begin({spec.width, spec.height, spec.channelnames});
+    const size_t of_row = static_cast<size_t>(spec.width) * static_cast<size_t>(spec.nchannels);
+    std::vector<float> values;
+    for_rows(spec.height, [&](int first, int end) {
+        values.resize(static_cast<size_t>(end - first) * of_row);
+        if (!input->read_scanlines(0, 0, spec.y + first, spec.y + end, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT,
+                                   values.data()))
+            fail_to_read(path, *input);
+        take(first, end, values);
+    });
+}
+
 void write_exr(const std::filesystem::path& path, const Channels& channels, ExrDepth depth) {
-    OIIO::ImageSpec spec(channels.width, channels.height, static_cast<int>(channels.names.size()),
+    const size_t of_row = static_cast<size_t>(channels.width) * channels.names.size();
+    write_exr(path, {channels.width, channels.height, channels.names}, depth,
+              [&](int begin, int, std::span<float> values) {
+                  const auto first = channels.values.begin() + static_cast<std::ptrdiff_t>(of_row) * begin;
+                  std::copy_n(first, values.size(), values.begin());
+              });
+}
+
+void write_exr(const std::filesystem::path& path, const ChannelLayout& layout, ExrDepth depth,
+               const GiveRows<float>& give) {
+    OIIO::ImageSpec spec(layout.width, layout.height, static_cast<int>(layout.names.size()),
                          depth == ExrDepth::half ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT);
-    spec.channelnames = channels.names;
+    spec.channelnames = layout.names;
     spec.alpha_channel = -1;
     spec.z_channel = -1;
     spec.attribute("compression", "zip");
@@ -91,21 +134,39 @@ void write_exr(const std::filesystem::path& path, const Channels& channels, ExrD
     const auto output = OIIO::ImageOutput::create("openexr");
     if (!output || !output->open(path.string(), spec))
         fail_to_write(path, output ? output->geterror() : OIIO::geterror());
-    if (!output->write_image(OIIO::TypeDesc::FLOAT, channels.values.data()) || !output->close())
-        fail_to_write(path, output->geterror());
+    std::vector<float> values;
+    for_rows(layout.height, [&](int begin, int end) {
+        values.resize(static_cast<size_t>(end - begin) * static_cast<size_t>(layout.width) * layout.names.size());
+        give(begin, end, values);
+        if (!output->write_scanlines(begin, end, 0, OIIO::TypeDesc::FLOAT, values.data()))
+            fail_to_write(path, output->geterror());
+    });
+    if (!output->close()) fail_to_write(path, output->geterror());
 }
 
 std::vector<uint8_t> encode_png(const Image<glm::u8vec3>& image) {
+    return encode_png(image.width, image.height, [&](int begin, int, std::span<glm::u8vec3> pixels) {
+        const auto first = image.pixels.begin() + static_cast<std::ptrdiff_t>(image.index(0, begin));
+        std::copy_n(first, pixels.size(), pixels.begin());
+    });
+}
+
+std::vector<uint8_t> encode_png(int width, int height, const GiveRows<glm::u8vec3>& give) {
     std::vector<unsigned char> bytes;
     OIIO::Filesystem::IOVecOutput memory(bytes);
     const auto output = OIIO::ImageOutput::create("png");
     if (!output || !output->set_ioproxy(&memory))
         throw Error(ErrorKind::internal, "no PNG encoder: " + OIIO::geterror());
-    OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::UINT8);
+    OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
     spec.attribute("oiio:ColorSpace", "sRGB");
-    if (!output->open("map.png", spec) || !output->write_image(OIIO::TypeDesc::UINT8, image.pixels.data()) ||
-        !output->close())
-        throw Error(ErrorKind::internal, "PNG encoder: " + output->geterror());
+    bool is_good = output->open("map.png", spec);
+    std::vector<glm::u8vec3> pixels;
+    for_rows(height, [&](int begin, int end) {
+        pixels.resize(static_cast<size_t>(end - begin) * static_cast<size_t>(width));
+        give(begin, end, pixels);
+        is_good = is_good && output->write_scanlines(begin, end, 0, OIIO::TypeDesc::UINT8, pixels.data());
+    });
+    if (!is_good || !output->close()) throw Error(ErrorKind::internal, "PNG encoder: " + output->geterror());
     return bytes;
 }
 

@@ -6,22 +6,31 @@
 #include <cmath>
 
 #include "runtime/base/error.h"
-#include "runtime/image/image_file.h"
 
 namespace surimi {
 
+ChannelLayout map_layout(const VisibilityMap& map) {
+    return {map.visibility.width, map.visibility.height, {"R", "G", "B"}};
+}
+
+void give_map(const VisibilityMap& map, int begin, std::span<float> values) {
+    size_t i = map.visibility.index(0, begin);
+    for (auto value = values.begin(); value != values.end(); ++i)
+        for (int c = 0; c < 3; ++c) *value++ = map.visibility.pixels[i][c];
+}
+
 void write_map_exr(const std::filesystem::path& path, const VisibilityMap& map) {
-    Channels channels{map.visibility.width, map.visibility.height, {"R", "G", "B"}, {}};
-    channels.values.reserve(map.visibility.pixels.size() * 3);
-    for (const Vec3f& v : map.visibility.pixels) channels.values.insert(channels.values.end(), {v.x, v.y, v.z});
-    write_exr(path, channels, ExrDepth::half);
+    write_exr(path, map_layout(map), ExrDepth::half,
+              [&](int begin, int, std::span<float> values) { give_map(map, begin, values); });
 }
 
 std::vector<uint8_t> encode_map_png(const VisibilityMap& map) {
-    Image<glm::u8vec3> image(map.visibility.width, map.visibility.height);
-    std::transform(map.visibility.pixels.begin(), map.visibility.pixels.end(), image.pixels.begin(),
-                   [](const Vec3f& v) { return srgb8(Vec3(v)); });
-    return encode_png(image);
+    const Image<Vec3f>& image = map.visibility;
+    return encode_png(image.width, image.height, [&](int begin, int, std::span<glm::u8vec3> pixels) {
+        const auto first = image.pixels.begin() + static_cast<std::ptrdiff_t>(image.index(0, begin));
+        std::transform(first, first + static_cast<std::ptrdiff_t>(pixels.size()), pixels.begin(),
+                       [](const Vec3f& v) { return srgb8(Vec3(v)); });
+    });
 }
 
 VisibilityMap read_map_exr(const std::filesystem::path& path) {

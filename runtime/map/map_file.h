@@ -4,11 +4,18 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <vector>
 
+#include "runtime/image/image_file.h"
 #include "runtime/map/visibility_map.h"
 
 namespace surimi {
+
+/// Size and channels of a map's EXR.
+ChannelLayout map_layout(const VisibilityMap& map);
+/// Their values from this row of the map on, as many as `values` holds.
+void give_map(const VisibilityMap& map, int begin, std::span<float> values);
 
 /// Half, ZIP, linear, channels R G B. Throws Error(cannot_write).
 void write_map_exr(const std::filesystem::path& path, const VisibilityMap& map);

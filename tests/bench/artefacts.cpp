@@ -10,9 +10,8 @@
 #include <vector>
 
 #include "baker/bake.h"
+#include "baker/cli/options.h"
 #include "runtime/base/error.h"
-#include "runtime/scene/gltf.h"
-#include "runtime/scene/monitors.h"
 #include "runtime/trace/ray_scene.h"
 #include "tests/support/map_pictures.h"
 #include "tests/support/point_rays.h"
@@ -37,7 +36,7 @@ BakeSettings settings_without(const std::vector<std::string>& names) {
 }
 
 struct Options {
-    std::string file, pictures;
+    std::string file, config, pictures;  // config: of monitors and objects, as the program takes it
     std::vector<std::string> without;
     int size = 1024;
     double error = GatherSettings{}.error;
@@ -54,8 +53,8 @@ double error_named(const std::string& quality) {
 
 Options read_options(const std::vector<std::string>& words) {
     const std::string usage =
-        "usage: artefacts ROOM.glb [--size N] [--quality draft|medium|high] [--without FIX].. [--points N] [--rays N] "
-        "[--pictures FOLDER] [--worst N]";
+        "usage: artefacts ROOM.glb [--config FILE.toml] [--size N] [--quality draft|medium|high] [--without FIX].. "
+        "[--points N] [--rays N] [--pictures FOLDER] [--worst N]";
     Options options;
     for (size_t i = 0; i < words.size(); ++i) {
         if (!words[i].starts_with("--")) {
@@ -65,7 +64,9 @@ Options read_options(const std::vector<std::string>& words) {
         if (i + 1 == words.size()) throw Error(ErrorKind::usage, usage);
         const std::string& option = words[i];
         const std::string& value = words[++i];
-        if (option == "--size")
+        if (option == "--config")
+            options.config = value;
+        else if (option == "--size")
             options.size = std::stoi(value);
         else if (option == "--quality")
             options.error = error_named(value);
@@ -216,8 +217,11 @@ void print_costs(const std::vector<Variant>& variants) {
 }
 
 void run(const Options& options) {
-    Scene scene = read_gltf(options.file);
-    find_monitors(scene, {});
+    Given given;
+    given.scene = options.file;
+    given.config = options.config;
+    given.quiet = true;
+    const Scene scene = load_scene(given, effective_config(given));
     const std::vector<Variant> variants = bake_variants(scene, options);
     std::printf("%s, %d x %d, error %g\n", scene.path.filename().string().c_str(), options.size, options.size,
                 options.error);

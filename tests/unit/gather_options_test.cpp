@@ -173,6 +173,7 @@ TEST(GatherOptions, WhatIsPrintedReadsBack) {
     all.is_strict = true;
     all.seed = 99;
     all.supersample = 3;
+    all.fit = "bilinear";
     all.memory = 1500;
     for (const auto& wishes : {all, with_quality("draft"), with_quality("reference"), exactly(), within(12.5),
                                with_method("scanline"), with_error(1), with_error(1e-5)}) {
@@ -186,11 +187,35 @@ TEST(GatherOptions, WhatIsPrintedReadsBack) {
         EXPECT_EQ(back.bake.gather.samples, config.bake.gather.samples);
         EXPECT_EQ(back.bake.gather.seed, config.bake.gather.seed);
         EXPECT_EQ(back.bake.gather.supersample, config.bake.gather.supersample);
+        EXPECT_EQ(back.bake.post.fit, config.bake.post.fit);
         EXPECT_EQ(back.bake.memory, config.bake.memory);
         EXPECT_EQ(back.bake.audit, config.bake.audit);
         EXPECT_EQ(back.is_strict, config.is_strict);
         EXPECT_EQ(back.seconds, config.seconds);
     }
+}
+
+TEST(GatherOptions, FitIsNoneUnlessAskedForAndNamesAreChecked) {
+    EXPECT_EQ(config_of({}).bake.post.fit, Fit::none);
+    GatherWishes bilinear, none, wrong;
+    bilinear.fit = "bilinear";
+    none.fit = "none";
+    wrong.fit = "bilinaer";
+    EXPECT_EQ(config_of({bilinear}).bake.post.fit, Fit::bilinear);
+    EXPECT_EQ(config_of({bilinear, none}).bake.post.fit, Fit::none) << "the higher source wins";
+    EXPECT_EQ(config_of({bilinear, with_error(0.01)}).bake.post.fit, Fit::bilinear);
+    EXPECT_EQ(nlohmann::json::parse(settings_json(config_of({bilinear})))["fit"], "bilinear");
+    EXPECT_NE(
+        complaint({wrong}).find("fit must be one of none, bilinear, not \"bilinaer\"; did you mean \"bilinear\"?"),
+        std::string::npos);
+}
+
+TEST(GatherOptions, FitComesFromTheEnvironment) {
+    setenv("SURIMI_FIT", "bilinear", 1);
+    const GatherWishes wishes = environment_wishes();
+    unsetenv("SURIMI_FIT");
+    EXPECT_EQ(wishes.fit, "bilinear");
+    EXPECT_EQ(environment_wishes().fit, std::nullopt);
 }
 
 TEST(GatherOptions, ManifestHasWhatDecidesTheValues) {
@@ -207,6 +232,7 @@ TEST(GatherOptions, ManifestHasWhatDecidesTheValues) {
     EXPECT_EQ(json["samples"], 48);
     EXPECT_EQ(json["audit"], 17);
     EXPECT_EQ(json["supersample"], 2);
+    EXPECT_EQ(json["fit"], "none");
     EXPECT_FALSE(json.contains("memory")) << "values do not depend on it";
     EXPECT_FALSE(json.contains("time"));
     EXPECT_EQ(nlohmann::json::parse(settings_json(config_of({within(3)})))["time"], 3);

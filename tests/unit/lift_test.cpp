@@ -114,7 +114,10 @@ struct Stage {
     TexelSurface surface(size_t texel) const { return {scene, atlas, texels, texels.texels[texel]}; }
     TexelSurface lifted(size_t texel) const {
         TexelSurface result = surface(texel);
-        lift_pieces(RayScene(scene), result);
+        const RayScene rays(scene);
+        std::vector<Panel> panels;
+        for (const Monitor& monitor : scene.monitors) panels = panels_of(monitor, rays);
+        lift_pieces(rays, panels, result);
         return result;
     }
 };
@@ -168,6 +171,23 @@ TEST(LiftPieces, StayWhereSomethingIsInTheWay_M63) {
         }
     EXPECT_GT(stayed, 5);
     EXPECT_GT(moved, 5);
+}
+
+TEST(LiftPieces, StayBesideAStepThatHidesTheLight_M63) {
+    const auto moved = [](double light_at) {
+        Stage stage;
+        test::add_monitor(stage.scene, "Monitor_R", 0, {0.5, light_at, 0.3}, {light_at > 0 ? 0.2 : -0.2, 0, 0},
+                          {0, 0, 0.2});
+        // 1 cm high, at y = 1.
+        test::add_quad(stage.scene, "Step", {-1, 1, 0}, {2, 1, 0}, {2, 1, 0.01}, {-1, 1, 0.01});
+        int count = 0;
+        for (size_t i = 0; i < stage.texels.texels.size(); ++i)
+            for (const TexelSurface& lifted = stage.lifted(i); const TexelSurface::Piece& piece : lifted.pieces())
+                count += piece.is_lifted;
+        return count;
+    };
+    EXPECT_EQ(moved(-4), 20);  // the step is behind
+    EXPECT_EQ(moved(4), 15);   // but for the row beside it: over the others' horizon all of the monitor is free
 }
 
 }  // namespace

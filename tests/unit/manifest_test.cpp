@@ -130,6 +130,16 @@ TEST(Manifest, EvidenceCountsWhatWasDone) {
     EXPECT_FALSE(evidence.contains("audit")) << "none was asked for";
 }
 
+TEST(Manifest, AFitStandsInItWhereOneWasMade) {
+    SmallBake small;
+    EXPECT_FALSE(Json::parse(small.text())["evidence"]["G"].contains("fit"));
+    small.bake.evidence[0].fit = {
+        .texels = 7, .largest_move = 0.25, .rms_before = 0.5, .rms_after = 0.125, .rounds = 30, .area = 9};
+    EXPECT_EQ(
+        Json::parse(small.text())["evidence"]["G"]["fit"],
+        Json::parse(R"({"texelsMoved": 7, "largestMove": 0.25, "rmsBefore": 0.5, "rmsAfter": 0.125, "rounds": 30})"));
+}
+
 TEST(Manifest, HistogramNamesTheUpperEndsOfItsBins) {
     const Json histogram = Json::parse(SmallBake().text())["evidence"]["G"]["errorHistogram"];
     ASSERT_EQ(histogram["below"].size(), GatherStatistics::bins);

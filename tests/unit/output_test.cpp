@@ -15,6 +15,7 @@
 #include "runtime/image/image_file.h"
 #include "runtime/map/map_file.h"
 #include "runtime/scene/gltf.h"
+#include "tests/support/counted_memory.h"
 
 namespace surimi::test {
 namespace {
@@ -121,9 +122,29 @@ TEST(Output, MonitorsOfOneNameHaveLayersOfTheirOwn) {
     finished.scene.monitors[1].channel = 2;
     finished.bake.pages[0].state[2] = finished.bake.pages[0].state[1];
     finished.bake.pages[0].irradiance[2] = finished.bake.pages[0].irradiance[1];
-    const Channels channels = lightmap_channels(finished.scene, finished.bake.pages[0]);
-    EXPECT_EQ(channels.names[0], "Screen_G.shadowed");
-    EXPECT_EQ(channels.names[5], "Screen_B.shadowed");
+    const ChannelLayout layout = lightmap_layout(finished.scene, finished.bake.pages[0]);
+    EXPECT_EQ(layout.names[0], "Screen_G.shadowed");
+    EXPECT_EQ(layout.names[5], "Screen_B.shadowed");
+}
+
+/// The most that is held beside a bake of this size while its files are written.
+double bytes_to_write(int side) {
+    FinishedBake finished;
+    BakedPage& page = finished.bake.pages[0];
+    finished.bake.atlas.width = finished.bake.atlas.height = side;
+    page.map.visibility = Image<Vec3f>(side, side, Vec3f(1));
+    page.state[1] = Image<TexelState>(side, side, TexelState::covered);
+    page.irradiance[1] = Image<IrradianceEstimate>(side, side);
+    restart_count();
+    finished.write();
+    return static_cast<double>(most_counted_bytes());
+}
+
+TEST(Output, NoSecondCopyOfTheEvidenceIsMade) {
+    constexpr double decoded = 4 + 3;         // bytes of a texel: the picture in the baked glb is read back
+    constexpr double rows = 64 * 20 * 4;      // of the evidence, as read, as written, and twice in the library
+    const double small = bytes_to_write(64);  // what the libraries hold whatever the size
+    EXPECT_LT(bytes_to_write(1024) - small, 1024 * (1024 * decoded + rows)) << "the evidence has 20 bytes a texel";
 }
 
 TEST(Output, ManifestHashesWhatIsOnTheDisk) {

@@ -108,6 +108,22 @@ TEST(Plan, SurfacesThatFaceAwayAreUnlitAndTheirMonitorIsNotTraced) {
     EXPECT_LT(result.rays(), 64) << "no more than a question for each block of the monitor's own surface";
 }
 
+TEST(Plan, FitRunsWhereItIsAskedForAsInTheBake) {
+    Scene scene = floor_and_monitor();
+    add_sheet(scene, "Table", 1, 0.5);
+    BakeSettings settings = small_settings();
+    const Plan without = plan(scene, settings, {});
+    EXPECT_FALSE(stage(without, "fit Monitor_R").runs);
+    EXPECT_NE(stage(without, "fit Monitor_R").why.find("--fit bilinear"), std::string::npos);
+    settings.post.fit = Fit::bilinear;
+    const Plan with = plan(scene, settings, {});
+    EXPECT_TRUE(stage(with, "fit Monitor_R").runs);
+    EXPECT_GT(stage(with, "fit Monitor_R").seconds, 0);
+    const Bake baked = bake(scene, settings, {});
+    EXPECT_GT(seconds_of(baked.costs, "fit Monitor_R"), 0);
+    EXPECT_GT(baked.evidence[0].fit.texels, 0u);
+}
+
 TEST(Plan, FacingIsTheShareOfTheAreaInFront) {
     Scene scene;
     scene.path = "room.glb";
