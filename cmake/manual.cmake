@@ -20,7 +20,7 @@ if(SURIMI_HELP2MAN)
   set(page ${SURIMI_HELP2MAN} --no-info --version-string=${PROJECT_VERSION} --manual=Surimi --source=Surimi)
   surimi_manual(surimi.1 ${CMAKE_INSTALL_MANDIR}/man1 surimi.1
     ${page} "--name=bakes visibility maps for monitor light" $<TARGET_FILE:surimi>)
-  foreach(command inspect unwrap bake preview compare study plan validate doctor completion)
+  foreach(command inspect unwrap bake preview compare ratio study plan validate doctor completion)
     surimi_manual(surimi-${command}.1 ${CMAKE_INSTALL_MANDIR}/man1 surimi-${command}.1
       ${page} --help-option=--help-all "--name=surimi ${command}" "\"$<TARGET_FILE:surimi> ${command}\"")
   endforeach()

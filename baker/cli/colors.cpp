@@ -10,7 +10,6 @@
 
 #include "runtime/base/color.h"
 #include "runtime/base/error.h"
-#include "runtime/image/image_file.h"
 
 namespace surimi {
 namespace {
@@ -34,20 +33,38 @@ std::array<size_t, 3> choose_channels(const std::filesystem::path& path, const s
 
 }  // namespace
 
-Image<Vec3f> read_colors(const std::filesystem::path& path, const std::string& channel) {
-    const Channels channels = read_channels(path);
-    const std::array<size_t, 3> chosen = choose_channels(path, channels.names, channel);
+bool holds_linear_values(const std::filesystem::path& path) {
     std::string extension = path.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    const bool is_linear = extension == ".exr" || extension == ".hdr" || extension == ".pfm";
+    return extension == ".exr" || extension == ".hdr" || extension == ".pfm";
+}
+
+Image<Vec3f> stored_colors(const std::filesystem::path& path, const Channels& channels, const std::string& channel) {
+    const std::array<size_t, 3> chosen = choose_channels(path, channels.names, channel);
     Image<Vec3f> image(channels.width, channels.height);
     for (size_t i = 0; i < image.pixels.size(); ++i)
-        for (int c = 0; c < 3; ++c) {
-            const float value = channels.values[i * channels.names.size() + chosen[static_cast<size_t>(c)]];
-            image.pixels[i][c] = is_linear ? value : static_cast<float>(linear_from_srgb(value));
-        }
+        for (int c = 0; c < 3; ++c)
+            image.pixels[i][c] = channels.values[i * channels.names.size() + chosen[static_cast<size_t>(c)]];
     return image;
+}
+
+Image<Vec3f> read_colors(const std::filesystem::path& path, const std::string& channel) {
+    Image<Vec3f> image = stored_colors(path, read_channels(path), channel);
+    if (holds_linear_values(path)) return image;
+    for (Vec3f& color : image.pixels)
+        for (int c = 0; c < 3; ++c) color[c] = static_cast<float>(linear_from_srgb(static_cast<double>(color[c])));
+    return image;
+}
+
+Image<uint8_t> read_mask(const std::filesystem::path& path) {
+    if (path.empty()) return {};
+    const Image<Vec3f> colors = stored_colors(path, read_channels(path), "");
+    Image<uint8_t> mask(colors.width, colors.height);
+    std::transform(colors.pixels.begin(), colors.pixels.end(), mask.pixels.begin(), [](const Vec3f& color) {
+        return static_cast<uint8_t>(std::max({color.x, color.y, color.z}) > 0.5F);
+    });
+    return mask;
 }
 
 }  // namespace surimi

@@ -23,5 +23,6 @@ Run add_plan_command(CLI::App& app);
 Run add_validate_command(CLI::App& app);
 Run add_doctor_command(CLI::App& app);
 Run add_completion_command(CLI::App& app);
+Run add_ratio_command(CLI::App& app);
 
 }  // namespace surimi

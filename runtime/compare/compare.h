@@ -2,6 +2,8 @@
 // How far an image is from a reference: errors of its numbers, and the difference that a person sees.
 #pragma once
 
+#include <cstdint>
+
 #include "runtime/base/image.h"
 #include "runtime/base/math.h"
 
@@ -23,16 +25,26 @@ struct ImageDifference {
     double largest = 0;        ///< largest absolute difference of a channel
     int largest_x = 0;         ///< its pixel, the first in reading order
     int largest_y = 0;
-    double p99 = 0;         ///< 99 % of the pixels differ by no more than this in any channel
-    size_t not_finite = 0;  ///< pixels left out because one of the two is not finite
+    double p50 = 0;  ///< half of the pixels differ by no more than this in any channel
+    double p95 = 0;  ///< so do 95 %
+    double p99 = 0;
+    double p999 = 0;          ///< and 99.9 %
+    Vec3 rmse_of_channel{0};  ///< over pixels
+    size_t compared = 0;      ///< pixels that both images and the mask have
+    size_t not_finite = 0;    ///< pixels left out because one of the two is not finite
 };
 
-/// Compares two linear images (M28). Throws Error(usage) when their sizes differ.
-ImageDifference difference(const Image<Vec3f>& image, const Image<Vec3f>& reference);
+/// Compares two linear images (M28) where `mask` is not 0; an empty mask: everywhere. Throws Error(usage) when sizes
+/// differ.
+ImageDifference difference(const Image<Vec3f>& image, const Image<Vec3f>& reference, const Image<uint8_t>& mask = {});
 
 /// Absolute difference of each pixel, in its largest channel; NaN where one of the two is not finite. Throws
 /// Error(usage) when their sizes differ.
 Image<float> absolute_difference(const Image<Vec3f>& image, const Image<Vec3f>& reference);
+
+/// Image less reference of each pixel, in the channel where the two differ most; NaN where one of the two is not
+/// finite. Throws Error(usage) when their sizes differ.
+Image<float> signed_difference(const Image<Vec3f>& image, const Image<Vec3f>& reference);
 
 /// FLIP of Andersson et al. 2020 for each pixel, in [0, 1]: the difference that a person sees who flips between the two
 /// (M28). Both are display-referred linear sRGB; they are clamped to [0, 1] and NaN is black, as a screen would show
@@ -40,12 +52,16 @@ Image<float> absolute_difference(const Image<Vec3f>& image, const Image<Vec3f>& 
 Image<float> flip(const Image<Vec3f>& image, const Image<Vec3f>& reference,
                   double pixels_per_degree = default_pixels_per_degree);
 
-/// Mean of all pixels, 0 of none.
-double mean(const Image<float>& values);
+/// Mean of the pixels where `mask` is not 0, of all where it is empty; 0 of none.
+double mean(const Image<float>& values, const Image<uint8_t>& mask = {});
 
 /// Shows values from `low` (black) over purple and orange to `high` (pale yellow), as sRGB codes. Lightness rises
 /// steadily, so the order survives printing in grey and every colour blindness. What is outside is clamped; NaN, and
 /// everything where `high` is not above `low`, is black.
 Image<glm::u8vec3> heat_map(const Image<float>& values, double low, double high);
+
+/// Shows values from -`most` (blue) over 0 (white) to `most` (orange), as sRGB codes; these two hues are told apart by
+/// every colour blindness. What is outside is clamped; NaN, and everything where `most` is not above 0, is black.
+Image<glm::u8vec3> signed_heat_map(const Image<float>& values, double most);
 
 }  // namespace surimi

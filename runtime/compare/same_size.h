@@ -6,16 +6,14 @@
 
 #include "runtime/base/error.h"
 #include "runtime/base/image.h"
-#include "runtime/base/math.h"
 
 namespace surimi {
 
 /// Throws Error(usage), naming both sizes, when they differ.
-inline void require_same_size(const Image<Vec3f>& image, const Image<Vec3f>& reference) {
+template <class A, class B>
+void require_same_size(const Image<A>& image, const Image<B>& reference) {
     if (image.width == reference.width && image.height == reference.height) return;
-    const auto size = [](const Image<Vec3f>& one) {
-        return std::to_string(one.width) + " x " + std::to_string(one.height);
-    };
+    const auto size = [](const auto& one) { return std::to_string(one.width) + " x " + std::to_string(one.height); };
     throw Error(ErrorKind::usage, "images of different sizes cannot be compared: " + size(image) + " and " +
                                       size(reference) + "; give two of the same size");
 }

@@ -89,6 +89,12 @@ Channels read_channels(const std::filesystem::path& path) {
     const auto input = open_file(path);
     const OIIO::ImageSpec& spec = input->spec();
     Channels channels{spec.width, spec.height, spec.channelnames, {}};
+    if (!spec.format.is_floating_point())
+        channels.code_step = 1 / (std::pow(2.0, 8.0 * static_cast<double>(spec.format.size())) - 1);
+    else if (input->format_name() == std::string("hdr"))
+        channels.relative_step = 0x1p-7;  // 8 bits of mantissa in common with the brightest channel: at worst this
+    else
+        channels.relative_step = spec.format == OIIO::TypeDesc::HALF ? 0x1p-10 : 0x1p-23;
     channels.values.resize(static_cast<size_t>(spec.image_pixels()) * static_cast<size_t>(spec.nchannels));
     if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, channels.values.data()))
         fail_to_read(path, *input);

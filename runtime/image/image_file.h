@@ -25,6 +25,8 @@ struct Channels {
     int height = 0;
     std::vector<std::string> names;
     std::vector<float> values;  ///< width * height * names.size()
+    double code_step = 0;       ///< between neighbouring codes of [0, 1] in the file; 0: it holds floats
+    double relative_step = 0;   ///< between neighbouring values as a share of them; of half, float and RGBE
 };
 
 /// The same without their values.

@@ -392,6 +392,24 @@ printf x >>"$work/damaged/home-theater.visibility.png"
 rm "$work/damaged/home-theater.lightmaps.exr"
 expect 3 "visibility.png: is not what the bake wrote" "$surimi" validate "$work/damaged"
 expect 3 "lightmaps.exr: is missing" "$surimi" validate "$work/damaged"
+# Lightmaps of another baker: those of a bake are as good
+for light in shadowed unshadowed; do
+    oiiotool "$work/out/home-theater.lightmaps.exr" --ch "R=Monitor_R.$light,G=Monitor_R.$light,B=Monitor_R.$light" -d float -o "$work/$light.exr"
+    oiiotool "$work/$light.exr" --mulc 0.2 -d uint8 -o "$work/$light.png"
+done
+expect 0 "ratio.visibility.png" "$surimi" ratio --red "$work/shadowed.exr" "$work/unshadowed.exr" -o "$work/ratio" --validity "$work/validity.png"
+expect 0 '"coverage": "light"' "$surimi" ratio --green "$work/shadowed.exr" "$work/unshadowed.exr" -o "$work/ratio-green" --json
+expect 0 "RMSE" "$surimi" compare "$work/ratio-green.visibility.exr" "$work/ratio.visibility.exr" --fail-above 1
+expect 0 "blue" "$surimi" compare "$work/ratio.visibility.exr" "$work/out/home-theater.visibility.exr" --channel R --mask "$work/validity.png" --signed -o "$work/signed.png" --metric p99 --fail-above 0.01
+expect 2 "no sign" "$surimi" compare "$work/lit.png" "$work/lit.png" --signed --metric flip -o "$work/nothing.png"
+expect 0 "noise" "$surimi" ratio --linear --red "$work/shadowed.png" "$work/unshadowed.png" -o "$work/ratio-png"
+expect 0 "ratio-kanikama.visibility.exr" "$surimi" ratio --kanikama-compat --red "$work/shadowed.exr" "$work/unshadowed.exr" -o "$work/ratio-kanikama"
+expect 5 "covered texels" "$surimi" ratio --red "$work/unshadowed.exr" "$work/shadowed.exr" -o "$work/ratio-swapped" --fail-above 1
+expect 2 "--red" "$surimi" ratio -o "$work/nothing"
+expect 2 "one size" "$surimi" ratio --red "$work/shadowed.exr" "$work/picture.png" -o "$work/nothing"
+expect 3 "missing.exr" "$surimi" ratio --red "$work/missing.exr" "$work/shadowed.exr" -o "$work/nothing"
+expect 6 "is an input" "$surimi" ratio --red "$work/ratio.visibility.exr" "$work/unshadowed.exr" -o "$work/ratio"
+check test -z "$(find "$work" -name 'nothing*')"
 
 # 130: Ctrl-C leaves nothing behind
 "$surimi" bake "$theater" --size 2048 --method mc --samples 4096 -o "$work/interrupted" --quiet 2>"$work/stderr" &

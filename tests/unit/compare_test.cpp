@@ -226,5 +226,56 @@ TEST(HeatMap, ClampsAndShowsNoNumberAsBlack) {
     for (const auto& color : heat_map(values, 0, std::nan("")).pixels) EXPECT_EQ(color, colors[1]);
 }
 
+TEST(Compare, AMaskLeavesOutWhatItDoesNotCover) {
+    const Image<Vec3f> reference(10, 10, Vec3f(0.5F));
+    Image<Vec3f> image = reference;
+    Image<uint8_t> mask(10, 10, 1);
+    for (int x = 0; x < 10; ++x) image.at(x, 0) = Vec3f(9), mask.at(x, 0) = 0;
+    image.at(3, 0) = Vec3f(nan);
+    image.at(4, 5).y = 0.4F;
+    const ImageDifference numbers = difference(image, reference, mask);
+    EXPECT_EQ(numbers.compared, 90U);
+    EXPECT_EQ(numbers.not_finite, 0U);
+    EXPECT_NEAR(numbers.largest, 0.1, 1e-6);
+    EXPECT_EQ(numbers.largest_y, 5);
+    EXPECT_NEAR(numbers.rmse_of_channel.y, 0.1 / std::sqrt(90), 1e-6);
+    EXPECT_EQ(numbers.rmse_of_channel.x, 0);
+    EXPECT_EQ(numbers.p95, 0);
+    EXPECT_NEAR(numbers.p99, 0.1, 1e-6);
+    EXPECT_NEAR(mean(absolute_difference(image, reference), mask), 0.1 / 90, 1e-6);
+    EXPECT_EQ(difference(image, reference, Image<uint8_t>(10, 10, 0)).compared, 0U);
+    EXPECT_THROW(difference(image, reference, Image<uint8_t>(10, 9, 1)), Error);
+}
+
+TEST(Compare, PercentilesOfKnownDifferences) {
+    const Image<Vec3f> reference(1000, 1);
+    Image<Vec3f> image = reference;
+    for (int x = 0; x < 1000; ++x) image.at(x, 0).z = static_cast<float>(x + 1);
+    const ImageDifference numbers = difference(image, reference);
+    EXPECT_EQ(numbers.p50, 500);
+    EXPECT_EQ(numbers.p95, 950);
+    EXPECT_EQ(numbers.p99, 990);
+    EXPECT_EQ(numbers.p999, 999);
+}
+
+TEST(Compare, SignedDifferencesAreBlueOrOrange) {
+    Image<Vec3f> image(5, 1, Vec3f(0.5F)), reference = image;
+    image.pixels[0].x = 0.25F;
+    image.pixels[2].y = 0.75F;
+    image.pixels[3].z = nan;
+    image.pixels[4] = Vec3f(infinity);
+    const Image<float> values = signed_difference(image, reference);
+    EXPECT_EQ(values.pixels[0], -0.25F);
+    EXPECT_EQ(values.pixels[2], 0.25F);
+    EXPECT_TRUE(std::isnan(values.pixels[3]));
+    const Image<glm::u8vec3> shown = signed_heat_map(values, 0.25);
+    EXPECT_GT(shown.pixels[0].b, shown.pixels[0].r);
+    EXPECT_EQ(shown.pixels[1], glm::u8vec3(255));
+    EXPECT_GT(shown.pixels[2].r, shown.pixels[2].b);
+    EXPECT_EQ(shown.pixels[3], glm::u8vec3(0));
+    EXPECT_EQ(signed_heat_map(values, 0).pixels[0], glm::u8vec3(0));
+    EXPECT_EQ(signed_heat_map(Image<float>(1, 1, -infinity), 1).pixels[0], shown.pixels[0]);
+}
+
 }  // namespace
 }  // namespace surimi
