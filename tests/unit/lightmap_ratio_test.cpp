@@ -53,7 +53,8 @@ struct TwoCharts {
     }
     std::span<const LightPair> pairs() const { return {&pair, 1}; }
     RatioOfLightmaps divide(const LightmapRatioSettings& settings = {}, bool with_mask = true) const {
-        return ratio_of(pair, find_coverage(pairs(), with_mask ? mask : Image<uint8_t>(), settings.threshold), settings);
+        return ratio_of(pair, find_coverage(pairs(), with_mask ? mask : Image<uint8_t>(), settings.threshold),
+                        settings);
     }
     /// The largest error over texels with light.
     double worst(const Image<float>& visibility) const {
