@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
-#include <tbb/version.h>
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 
@@ -105,7 +104,6 @@ int examine(bool as_json) {
         {"compiler", __VERSION__},
         {"tracing", tracing_library()},
         {"images", image_library()},
-        {"threading", fmt::format("oneTBB {}.{}", TBB_VERSION_MAJOR, TBB_VERSION_MINOR)},
         {"instructionSet", sets.empty() ? "none" : sets.front()},
         {"threads", thread_count()},
         {"memoryGiB", std::round(10 * gibibytes(sysconf(_SC_PHYS_PAGES))) / 10},
