@@ -36,10 +36,10 @@ export class Bake {
 
   /**
    * What a surface multiplies a light with: the dot product of this mask with (R, G, B, 1) of the map.
-   * `own` is the monitor that the surface belongs to: it does not light itself.
+   * `own` is the monitor that the surface belongs to: it has no map, and does not light itself.
    */
   maskOf(light, own = null) {
-    if (own !== null && own.lights.includes(light)) return dark;
+    if (own !== null) return own.lights.includes(light) ? dark : unshadowed;
     const channel = this.channelOf(light);
     return this.enabled && channel !== null ? channelMasks[channel] : unshadowed;
   }
