@@ -66,6 +66,7 @@ const floats = new Map();
 
 /** The texture with linear floats, without mipmaps. */
 function asFloats(texture) {
+  if (texture.isDataTexture) return texture;
   if (floats.has(texture)) return floats.get(texture);
   const { width, height } = texture.image;
   const context = new OffscreenCanvas(width, height).getContext('2d');
