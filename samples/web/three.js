@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shows a baked glb in three.js; the monitors are its only light.
-import { ACESFilmicToneMapping, PerspectiveCamera, Scene, WebGLRenderer } from 'three';
+import { ACESFilmicToneMapping, PerspectiveCamera, Scene, Vector3, WebGLRenderer } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { SurimiPlugin } from 'surimi-three';
@@ -15,8 +15,9 @@ async function show(url) {
   const scene = new Scene().add(gltf.scene);
   const camera = gltf.cameras[0] ?? new PerspectiveCamera(50);
   if (!gltf.cameras[0]) camera.position.set(0, 1.6, 3);
+  const target = camera.getWorldDirection(new Vector3()).multiplyScalar(3).add(camera.position);
   const controls = new OrbitControls(camera, canvas);
-  camera.getWorldDirection(controls.target).multiplyScalar(3).add(camera.position);
+  controls.target.copy(target);
   renderer.setAnimationLoop(() => {
     renderer.setSize(innerWidth, innerHeight, false);
     camera.aspect = innerWidth / innerHeight;
