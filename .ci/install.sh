@@ -7,7 +7,7 @@ packages=(g++ cmake ninja-build
     nlohmann-json3-dev libtbb-dev libcli11-dev libtomlplusplus-dev libfmt-dev libdraco-dev libmeshoptimizer-dev libhwy-dev libeigen3-dev libnanoflann-dev
     help2man)
 if [[ ${1:-} == --tests ]]; then
-    packages+=(libgtest-dev libbenchmark-dev clang-format clang dpkg-dev file)
+    packages+=(libgtest-dev libbenchmark-dev clang-format clang dpkg-dev file chromium)
     # gltf-validator runs on Node.js, of any source.
     command -v node >/dev/null && command -v npm >/dev/null || packages+=(nodejs npm)
 fi
