@@ -99,15 +99,14 @@ double gibibytes(long pages) {
 
 int examine(bool as_json) {
     const std::vector<std::string> sets = instruction_sets();
-    const nlohmann::ordered_json machine{
-        {"surimi", SURIMI_VERSION},
-        {"compiler", __VERSION__},
-        {"tracing", tracing_library()},
-        {"images", image_library()},
-        {"instructionSet", sets.empty() ? "none" : sets.front()},
-        {"threads", thread_count()},
-        {"memoryGiB", std::round(10 * gibibytes(sysconf(_SC_PHYS_PAGES))) / 10},
-        {"freeGiB", std::round(10 * gibibytes(sysconf(_SC_AVPHYS_PAGES))) / 10}};
+    const nlohmann::ordered_json machine{{"surimi", SURIMI_VERSION},
+                                         {"compiler", __VERSION__},
+                                         {"tracing", tracing_library()},
+                                         {"images", image_library()},
+                                         {"instructionSet", sets.empty() ? "none" : sets.front()},
+                                         {"threads", thread_count()},
+                                         {"memoryGiB", std::round(10 * gibibytes(sysconf(_SC_PHYS_PAGES))) / 10},
+                                         {"freeGiB", std::round(10 * gibibytes(sysconf(_SC_AVPHYS_PAGES))) / 10}};
     const std::vector<Check> checks{{"a floor in full light is exactly 1", [] { return floor_is(1, false); }},
                                     {"a floor under a lid is exactly 0", [] { return floor_is(0, true); }},
                                     {"maps are written and read back", files_come_back}};
