@@ -4,7 +4,7 @@ set -euo pipefail
 
 packages=(g++ cmake ninja-build
     libembree-dev libopenmesh-dev libopenexr-dev libopenimageio-dev openimageio-tools libglm-dev libtinygltf-dev
-    nlohmann-json3-dev libtbb-dev libcli11-dev libtomlplusplus-dev libfmt-dev libdraco-dev libmeshoptimizer-dev libhwy-dev libeigen3-dev libnanoflann-dev)
+    nlohmann-json3-dev libtbb-dev libcli11-dev libtomlplusplus-dev libfmt-dev libdraco-dev libmeshoptimizer-dev libhwy-dev libeigen3-dev libnanoflann-dev zlib1g-dev)
 if [[ ${1:-} == --tests ]]; then
     packages+=(libgtest-dev libbenchmark-dev clang-format clang)
     # gltf-validator runs on Node.js, of any source.
