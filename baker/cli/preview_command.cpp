@@ -142,7 +142,7 @@ void write_picture(const std::filesystem::path& path, const Image<Vec3f>& pixels
         Channels channels{pixels.width, pixels.height, {"R", "G", "B"}, {}};
         for (const Vec3f& p : pixels.pixels) channels.values.insert(channels.values.end(), {p.x, p.y, p.z});
         PendingFiles pending;
-        write_exr(pending.add(path), channels, ExrDepth::half);
+        write_exr(pending.add(path), channels, ExrDepth::full);
         pending.commit();
     } else {
         write_file(path, encode_png(to_codes(displayed(pixels, show, exposure))));

@@ -18,6 +18,13 @@ std::vector<std::array<Vec3f, 4>> quads_of(const Polygon& panel) {
     return quads;
 }
 
+/// three.js shades nothing smoother than this, as Filament does on desktops (r187; 0.0525 before).
+constexpr double three_least_roughness = 0.045;
+
+float shown_roughness(double roughness, ShadingModel model) {
+    return static_cast<float>(model == ShadingModel::three ? std::max(roughness, three_least_roughness) : roughness);
+}
+
 Parts parts_of(const published::Shares& shares, const ShadingPoint& point, ShadingModel model) {
     // Unity's metallic workflow keeps 4 % of the diffuse albedo back for the dielectric's reflection.
     const double kept = model == ShadingModel::kanikama ? 0.96 : 1;
@@ -47,10 +54,11 @@ void shade_as_published(const Lighting& lighting, std::span<const ShadingPoint> 
                 ++counts[m].unseen;
                 continue;
             }
+            const float roughness = shown_roughness(point.roughness, lighting.settings.model);
             Parts sum;
             for (const auto& quad : quads)
                 sum += parts_of(published::clipless_quad(quad.data(), Vec3f(point.at.position), Vec3f(point.normal),
-                                                         Vec3f(point.view), static_cast<float>(point.roughness), proxy),
+                                                         Vec3f(point.view), roughness, proxy),
                                 point, lighting.settings.model);
             ++counts[m].diffuse;
             ++counts[m].specular;

@@ -142,7 +142,10 @@ export const cases = {
         material.emissiveIntensity = 0;
       }
     for (const mesh of stage.meshes()) mesh.visible = mesh.name.startsWith('Monitor');
-    return { brightest: brightest(await onlyOf(stage)(0)) };
+    stage.bake.monitors[2].node.visible = stage.bake.monitors[1].node.visible = false;
+    const own = brightest(await stage.render());
+    stage.bake.monitors[2].node.visible = true; // which faces the first one
+    return { own, other: brightest(await stage.render()) };
   },
 
   async disposed(kit) {

@@ -2,12 +2,6 @@
 // How a material carries the map: as the texture of a layer that is switched off. Here it is taken off.
 import { ClampToEdgeWrapping, LinearFilter, LoaderUtils, NoColorSpace, SRGBColorSpace, TextureLoader } from 'three';
 
-/** extras.visibilityMap of the material where it names channels; null: nothing was baked for it. */
-export function noteOf(material) {
-  const note = material.userData.visibilityMap;
-  return Array.isArray(note?.channels) ? note : null;
-}
-
 /**
  * Takes the map off a material, which then shows no trace of it, and returns the texture, ready for sampling; null
  * where there is none. Materials whose layers are all in use name a file, which is loaded from beside the glb.

@@ -28,7 +28,7 @@ export function modulateForNodes(material, bake, texture, own) {
   const maskNodeOf = (light) => {
     if (!masks.has(light)) {
       const mask = uniform(new Vector4());
-      mask.onRenderUpdate(() => mask.value.copy(bake.maskOf(light, own)));
+      mask.onRenderUpdate(() => mask.value.fromArray(bake.maskOf(light, own)));
       masks.set(light, mask);
     }
     return masks.get(light);

@@ -25,7 +25,7 @@ export function modulateForWebGL(material, bake, texture, own) {
   material.onBeforeRender = (renderer, scene, camera, geometry, object, group) => {
     onBeforeRender.call(material, renderer, scene, camera, geometry, object, group);
     const lights = lightsInOrder(renderer, scene.children.length > 0 ? scene : topOf(object), camera);
-    uniforms.visibilityMask.value = lights.map((light) => bake.maskOf(light, own));
+    uniforms.visibilityMask.value = lights.flatMap((light) => bake.maskOf(light, own));
     const map = uniforms.visibilityMap.value;
     if (map === null) return;
     if (map.matrixAutoUpdate) map.updateMatrix();

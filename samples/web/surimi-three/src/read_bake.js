@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A loaded glb -> a Bake: its lights in the scene, its receivers dimmed by its map.
+import { noteOf } from 'surimi-glb';
 import { Bake } from './bake.js';
-import { noteOf, takeMap } from './carrier.js';
+import { takeMap } from './carrier.js';
 import { findMonitors } from './find_monitors.js';
 
 /**
@@ -16,7 +17,7 @@ export async function readBake(gltf, parser, modulate) {
   for (const { monitor, channel } of findMonitors(gltf.scenes, parser, names)) {
     bake.monitors.push(monitor);
     for (const light of monitor.lights) bake.setChannel(light, channel);
-    for (const material of monitor.materials) bake.addModulation(modulate(material, bake, null, monitor));
+    for (const material of monitor.materials) bake.addModulation(modulate(material, bake, null, monitor), null);
   }
   for (const [material, note] of receivers) {
     const texture = await takeMap(material, note, parser);
@@ -24,10 +25,8 @@ export async function readBake(gltf, parser, modulate) {
       console.warn(`surimi-three: the map of the material "${material.name}" was lost; its surfaces have no shadows`);
       continue;
     }
-    const page = pageOf(bake, note.page ?? 0, texture);
-    const modulation = modulate(material, bake, page.texture, null);
-    page.modulations.push(modulation);
-    bake.addModulation(modulation);
+    const page = bake.addPage(note.page ?? 0, texture);
+    bake.addModulation(modulate(material, bake, page.texture, null), page);
   }
   return bake;
 }
@@ -38,19 +37,9 @@ function findReceivers(scenes) {
   for (const scene of scenes)
     scene.traverse((object) => {
       for (const material of object.isMesh ? [object.material].flat() : []) {
-        const note = noteOf(material);
+        const note = noteOf(material.userData);
         if (note !== null) receivers.set(material, note);
       }
     });
   return receivers;
-}
-
-/** Materials of one page share one texture, whatever copies the loader made. */
-function pageOf(bake, number, texture) {
-  let page = bake.pages.find((candidate) => candidate.number === number);
-  if (page === undefined) {
-    page = { number, texture, modulations: [] };
-    bake.pages.push(page);
-  }
-  return page;
 }
