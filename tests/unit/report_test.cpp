@@ -117,7 +117,9 @@ TEST(Report, OutlinesAndDensityLieOnCharts) {
     const auto states = picture_of(report["pages"][0]["pictures"]["state"]);
     size_t sides = 0, inside = 0;
     for (size_t i = 0; i < atlas.pixels.size(); ++i) {
-        if (states.pixels[i].x % 8 == 1) EXPECT_GT(atlas.pixels[i].x, 0) << "a measured texel is on a chart";
+        if (states.pixels[i].x % 8 == 1) {
+            EXPECT_GT(atlas.pixels[i].x, 0) << "a measured texel is on a chart";
+        }
         sides += atlas.pixels[i].z > 0;
         inside += atlas.pixels[i].x > 0;
     }
@@ -217,8 +219,9 @@ TEST(Report, ComparesWithAReference) {
     EXPECT_EQ(sum, report["manifest"]["texels"]["R"]["covered"].get<size_t>());
     const auto difference = picture_of(report["pages"][0]["pictures"]["difference"]);
     for (size_t i = 0; i < difference.pixels.size(); ++i)
-        if (difference.pixels[i].x > 0)
+        if (difference.pixels[i].x > 0) {
             EXPECT_EQ(difference.pixels[i].x > 128, map.visibility.pixels[i].x >= 0.5f) << i;
+        }
 }
 
 TEST(Report, LightmapsAreAReferenceToo) {

@@ -16,7 +16,7 @@ export function atlasFacts({ atlas, manifest }) {
   if (!atlas) return '';
   const { p1, p50, p99 } = atlas.texelsPerMetre;
   return element('div', {}, facts(
-    fact('Density', `${short(p50)} /m`, `texels per metre in the worst direction, median over the area; 98 % of it has ${short(p1)} to ${short(p99)}`),
+    fact('Median density', `${short(p50)} /m`, `texels per metre in the worst direction, median over the area; 98 % of it has ${short(p1)} to ${short(p99)}`),
     fact('Charts', count(atlas.charts), `of ${count(atlas.triangles)} triangles, ${short(atlas.squareMetres)} m\u00b2`),
     fact('Use of the map', percent(atlas.touchedShare), 'of the texels are touched by charts'),
     fact('Stretch', short(atlas.l2Stretch), 'L2 stretch of Sander et al. 2001; 1 is no distortion'),

@@ -3,7 +3,7 @@
 import { css } from './color_maps.js';
 import { element, section, table } from './elements.js';
 import { errorHistogram } from './histogram.js';
-import { methodMeanings } from './map_section.js';
+import { methodMeanings, titleOf } from './map_section.js';
 import { bytes, count, percent, rays, seconds, short } from './numbers.js';
 
 function share(part) {
@@ -27,7 +27,7 @@ function methodTable(manifest, { channel, name }) {
   return table(`${channel} ${name}: what decided its texels`, ['method', 'texels', 'share', 'points', 'rays', 'CPU time', 'for a point'],
     Object.entries(methods).filter(([, method]) => method.texels > 0).map(([key, method]) => [
       element('span', { title: methodMeanings[key]?.[0] ?? null },
-        element('i', { class: 'swatch', style: `background: ${css(methodMeanings[key]?.[1] ?? [128, 128, 128])}` }), key),
+        element('i', { class: 'swatch', style: `background: ${css(methodMeanings[key]?.[1] ?? [128, 128, 128])}` }), titleOf(key)),
       count(method.texels), share(method.texels / all), rays(method.points), rays(method.rays),
       costs[key] ? seconds(costs[key].seconds) : '\u2013', costs[key] ? `${short(costs[key].microsecondsPerPoint)} \u00b5s` : '\u2013',
     ]));

@@ -29,15 +29,14 @@ export function facts(...children) {
   return element('dl', { class: 'facts' }, ...children);
 }
 
-/** A table; `columns` are headings, numbers align to the right. */
+/** A table; `columns` are headings. Columns with a number in a row align to the right. */
 export function table(caption, columns, rows) {
-  const cell = (content) => {
-    const isNumber = typeof content === 'string' && /^[-+\d.]/.test(content);
-    return element('td', { class: isNumber ? 'number' : null }, content);
-  };
+  const isNumber = (content) => typeof content === 'string' && /^[-+\u2212\d.]/.test(content);
+  const kinds = columns.map((_, c) => (rows.some((row) => isNumber(row[c])) ? 'number' : null));
+  const cell = (content, c) => element('td', { class: kinds[c] }, content);
   return element('div', { class: 'table' }, element('table', {},
     element('caption', {}, caption),
-    element('thead', {}, element('tr', {}, ...columns.map((name) => element('th', { scope: 'col' }, name)))),
+    element('thead', {}, element('tr', {}, ...columns.map((name, c) => element('th', { scope: 'col', class: kinds[c] }, name)))),
     element('tbody', {}, ...rows.map((row) => element('tr', {}, ...row.map(cell))))));
 }
 

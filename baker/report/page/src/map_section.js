@@ -9,6 +9,11 @@ import { stateMeanings } from './verdict.js';
 
 const outlineColors = { smooth: palette.vermilion, other: palette.sky };
 
+/** As people write it. */
+export function titleOf(name) {
+  return name === 'monteCarlo' ? 'Monte Carlo' : name;
+}
+
 export const methodMeanings = {
   none: ['no light to measure', nothing],
   certificate: ['one facet hides the whole monitor', palette.blue],
@@ -78,7 +83,7 @@ export class Panels {
       if (estimate !== null) words.push(`\u00b1 ${short(estimate, 2)}`);
       const off = difference ? differenceOf(difference.data[k], codes.differenceOctaves) : null;
       if (off !== null) words.push(`off by ${short(off, 2)}`);
-      if (state) words.push(states[stateOf(state.data[k])], methods[methodOf(state.data[k])]);
+      if (state) words.push(states[stateOf(state.data[k])], titleOf(methods[methodOf(state.data[k])]));
       parts.push(words.join(' '));
     }
     const density = atlas ? linearCodeOf(atlas.data[4 * i], 0, numbers.densityHigh) : null;
@@ -130,7 +135,7 @@ export function mapSection(report, panels) {
       report.manifest.monitors.some((monitor) => monitor.channel === channel))),
   }, ({ map }) => map && ((i) => map.data.subarray(4 * i, 4 * i + 3)));
   composite.classList.add('composite');
-  const grid = element('div', { class: 'panels', 'data-composite': 'grey' }, ...channelPanels(report, panels), composite);
+  const grid = element('div', { class: 'panels map', 'data-composite': 'grey' }, ...channelPanels(report, panels), composite);
   return section('map', 'The map', 'What the shader multiplies each monitor\u2019s light with. ' +
     'Unused channels are 1. Outlines: orange where a seam cuts a smooth surface, blue elsewhere.',
   controls(report, panels, grid), panels.readout(), grid);
@@ -143,7 +148,7 @@ function errorPanel(report, panels, { channel, name }) {
   return panels.add({
     id: `error-${channel}`, title: `Error, ${channel} ${name}`, meaning: 'standard error of visibility, estimated',
     legend: scaleLegend(magma, [short(asked / 16), short(asked / 4), short(asked), short(4 * asked), short(16 * asked)],
-      'logarithmic; the middle is the error asked for; black: that or less'),
+      'logarithmic, with the error asked for in the middle; what lies beyond has the colours of the ends'),
   }, ({ error }) => error && ((i) => {
     const value = errorOf(error.data[4 * i + c], errorOctaves);
     return value === null ? nothing : scaleColor(magma, Math.log2(Math.max(value, 1e-9) / asked), -4, 4);
@@ -151,7 +156,7 @@ function errorPanel(report, panels, { channel, name }) {
 }
 
 function categoryPanel(panels, options, names, meanings, of, c) {
-  return panels.add({ ...options, legend: keyLegend(names.map((name) => [meanings[name][1], name, meanings[name][0]])) },
+  return panels.add({ ...options, legend: keyLegend(names.map((name) => [meanings[name][1], titleOf(name), meanings[name][0]])) },
     ({ state }) => state && ((i) => meanings[names[of(state.data[4 * i + c])]]?.[1] ?? nothing));
 }
 

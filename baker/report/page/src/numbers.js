@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Numbers as people read them.
 
+function raised(exponent) {
+  const digits = [...String(Math.abs(exponent))].map((digit) => '\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079'[digit]);
+  return (exponent < 0 ? '\u207b' : '') + digits.join('');
+}
+
 /** Three significant digits, without exponents where they can be avoided. */
 export function short(value, digits = 3) {
   if (value === 0) return '0';
   const size = Math.abs(value);
-  if (size < 1e-4 || size >= 1e7) return value.toExponential(digits - 1);
-  return String(Number(value.toPrecision(digits)));
+  if (size >= 1e-4 && size < 1e7) return String(Number(value.toPrecision(digits))).replace('-', '\u2212');
+  const [factor, exponent] = value.toExponential(digits - 1).split('e');
+  return `${Number(factor)} \u00d7 10${raised(Number(exponent))}`.replace('-', '\u2212');
 }
 
 /** Whole numbers in groups of three. */

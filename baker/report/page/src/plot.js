@@ -4,11 +4,12 @@ import uPlot from 'uplot';
 import { css, palette } from './color_maps.js';
 import { element } from './elements.js';
 
-/** Colours and dashes of the lines of a plot: eight colours, then the same dashed, then dotted. */
-export function lineStyle(index) {
-  const colors = [palette.blue, palette.vermilion, palette.green, palette.purple, palette.orange, palette.sky];
-  const dashes = [[], [8, 4], [2, 3]];
-  return { stroke: css(colors[index % colors.length]), dash: dashes[Math.floor(index / colors.length) % dashes.length], width: 2 };
+const lineColors = [palette.blue, palette.vermilion, palette.green, palette.purple, palette.orange, palette.sky];
+const lineKinds = [{ dash: [], width: 3 }, { dash: [10, 5], width: 2 }, { dash: [2, 4], width: 2 }];
+
+/** The line of member `index` of a group of lines: a group shares a dash, its members differ in colour. */
+export function lineStyle(group, index) {
+  return { stroke: css(lineColors[index % lineColors.length]), ...lineKinds[group % lineKinds.length] };
 }
 
 export function axis(label, options = {}) {
@@ -17,6 +18,13 @@ export function axis(label, options = {}) {
     label, stroke: color('--ink'), grid: { stroke: color('--line'), width: 1 }, ticks: { stroke: color('--line'), width: 1 },
     labelSize: 24, size: 58, ...options,
   };
+}
+
+/** Gridlines of a logarithmic axis at powers of ten alone. */
+export function decades(_, __, low, high) {
+  const first = Math.ceil(Math.log10(low) - 1e-9);
+  const last = Math.floor(Math.log10(high) + 1e-9);
+  return Array.from({ length: Math.max(0, last - first + 1) }, (___, i) => Number(`1e${first + i}`));
 }
 
 /** An element that holds a plot; `options` and `data` as uPlot takes them, without width. */

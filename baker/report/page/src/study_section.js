@@ -3,7 +3,7 @@
 import uPlot from 'uplot';
 import { element, section, table } from './elements.js';
 import { rays, seconds, short } from './numbers.js';
-import { axis, lineStyle, plot } from './plot.js';
+import { axis, decades, lineStyle, plot } from './plot.js';
 
 /** Lines through settings of each technique: seconds a texel against RMSE, both logarithmic. */
 function accuracyPlot(study) {
@@ -14,17 +14,19 @@ function accuracyPlot(study) {
     const sorted = [...points].sort((a, b) => a.secondsPerTexel - b.secondsPerTexel);
     return [sorted.map((p) => p.secondsPerTexel), sorted.map((p) => p.rmse)];
   }));
-  const isDecade = (value) => Math.abs(Math.log10(value) - Math.round(Math.log10(value))) < 1e-6;
-  const decades = (format) => (_, splits) => splits.map((value) => (value !== null && isDecade(value) ? format(value) : ''));
+  const families = [...new Set(shown.map(({ family }) => family))];
+  const styleOf = (technique) => lineStyle(families.indexOf(technique.family),
+    shown.filter(({ family }) => family === technique.family).indexOf(technique));
+  const log = (format) => ({ splits: decades, filter: (_, splits) => splits, values: (_, splits) => splits.map((x) => format(x)) });
   return plot('accuracy', 'Error against time of every technique, both axes logarithmic', {
     height: 420,
     scales: { x: { time: false, distr: 3 }, y: { distr: 3 } },
-    axes: [axis('CPU time for a texel', { values: decades(seconds) }), axis('RMS error of visibility', { values: decades(short), size: 70 })],
+    axes: [axis('CPU time for a texel', log(seconds)), axis('RMS error of visibility', { ...log(short), size: 70 })],
     cursor: { focus: { prox: 24 }, drag: { x: true, y: true } },
     focus: { alpha: 0.25 },
     series: [{ label: 'time', value: (_, x) => (x === null ? '' : seconds(x)) },
-      ...shown.map((technique, i) => ({
-        label: technique.label, ...lineStyle(i), spanGaps: true, points: { show: true, size: 6 },
+      ...shown.map((technique) => ({
+        label: technique.label, ...styleOf(technique), spanGaps: true, points: { show: true, size: 6 },
         value: (_, y) => (y === null ? '\u2013' : short(y)),
       }))],
   }, data);
@@ -45,6 +47,6 @@ export function studySection({ study, manifest }) {
       `surimi study ${manifest.scene.file} --json > study.json measures what accuracy costs here, by every technique; then run surimi report again.`);
   const other = study.scene?.file !== manifest.scene.file ? ` It was made with another scene, ${study.scene?.file}.` : '';
   return section('study', 'Accuracy against time', 'Lower is more accurate, left is faster; each line is a technique at ' +
-    `several settings. Drag to enlarge, double click to go back; click a name to hide its line.${other}`,
+    `several settings (thick: the baker\u2019s own, dashed: sampling, dotted: approximations). Drag to enlarge, double click to go back; click a name to hide its line.${other}`,
   accuracyPlot(study), element('p', {}, study.reading ?? ''), numbersOf(study));
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The first thing to know: is the map what was asked for, what speaks against it, and what it took.
 import { css, palette } from './color_maps.js';
-import { element, fact, facts } from './elements.js';
+import { element, fact, facts, table } from './elements.js';
 import { bytes, count, percent, seconds, short } from './numbers.js';
 import { states } from './pictures.js';
 
@@ -33,20 +33,40 @@ function stateBar(manifest, { channel, name }) {
       `${state} ${count(counts[state])} (${percent(counts[state] / total)})`))));
 }
 
-function monitorFacts(manifest, { channel, name }) {
-  const evidence = manifest.evidence[channel];
-  const errors = manifest.error[channel];
-  const audit = evidence?.audit;
-  const named = manifest.monitors.length > 1 ? ` (${channel} ${name})` : '';
+/** The errors of the only monitor, each with what it means. */
+function errorFacts({ promise, errors, audit }) {
   return [
-    evidence?.promise ? fact(`Within the error${named}`, percent(1 - evidence.promise.shareAbove),
+    promise ? fact('Within the error', percent(1 - promise.shareAbove),
       'of the measured texels, by their own estimates; 99.9 % are promised') : null,
-    errors ? fact(`Estimated RMS error${named}`, short(errors.rms),
+    errors ? fact('Estimated RMS error', short(errors.rms),
       `of visibility (0 to 1), over the measured texels; mean ${short(errors.mean)}, largest ${short(errors.max)}`) : null,
-    audit ? fact(`Audited RMS error${named}`, short(audit.rmse),
-      `${count(audit.texels)} random texels against brute force; 95 % interval ${audit.rmseInterval.map((x) => short(x)).join(' to ')}; largest ${short(audit.largest)}`)
-      : null,
+    audit ? fact('Audited RMS error', short(audit.rmse),
+      `${count(audit.texels)} random texels against brute force; 95 % interval ${intervalOf(audit)}; largest ${short(audit.largest)}`) : null,
   ].filter((child) => child !== null);
+}
+
+function intervalOf(audit) {
+  return audit.rmseInterval.map((end) => short(end)).join(' to ');
+}
+
+/** The errors of several monitors, a row for each. */
+function errorTable(all) {
+  const isAudited = all.some(({ audit }) => audit);
+  const rows = all.map(({ channel, name, promise, errors, audit }) => [
+    `${channel} ${name}`, promise ? percent(1 - promise.shareAbove) : '\u2013',
+    ...['rms', 'mean', 'max'].map((key) => (errors ? short(errors[key]) : '\u2013')),
+    ...(isAudited ? (audit ? [`${short(audit.rmse)} (${intervalOf(audit)})`, short(audit.largest), count(audit.texels)] : ['\u2013', '\u2013', '\u2013']) : []),
+  ]);
+  return table('Errors of visibility (0: dark, 1: all light arrives), over the measured texels' +
+    `${isAudited ? '; audited: random texels against brute force, with the 95 % interval' : ', as estimated'}; 99.9 % within the error are promised`,
+  ['monitor', 'within the error', 'RMS', 'mean', 'largest', ...(isAudited ? ['audited RMS', 'audited largest', 'audited texels'] : [])], rows);
+}
+
+function errorsOf(manifest) {
+  return manifest.monitors.map(({ channel, name }) => {
+    const evidence = manifest.evidence[channel];
+    return { channel, name, promise: evidence?.promise, audit: evidence?.audit, errors: manifest.error[channel] };
+  });
 }
 
 function warnings(report, breaches) {
@@ -71,7 +91,8 @@ export function verdict(report) {
   const peak = Math.max(...manifest.run.stages.map((stage) => stage.peakBytes));
   const rays = Object.values(manifest.rays).reduce((sum, n) => sum + n, 0);
   const error = manifest.settings.error;
-  const isAudited = manifest.monitors.some(({ channel }) => manifest.evidence[channel]?.audit);
+  const errors = errorsOf(manifest);
+  const isAudited = errors.some(({ audit }) => audit);
   return element('section', { id: 'verdict', 'aria-label': 'Verdict' },
     element('p', { class: `verdict ${isKept ? 'kept' : 'broken'}` },
       element('b', { 'aria-hidden': 'true' }, isKept ? '\u2713' : '\u2717'),
@@ -83,12 +104,13 @@ export function verdict(report) {
     warnings(report, breaches),
     facts(
       fact('Error asked for', short(error), 'how far the visibility of a texel (0: dark, 1: all light arrives) may be off'),
-      ...manifest.monitors.flatMap((monitor) => monitorFacts(manifest, monitor)),
-      isAudited ? null : fact('Audited error', 'none', 'add --audit 1000 to check random texels by brute force'),
+      ...(errors.length === 1 ? errorFacts(errors[0]) : []),
+      ...(isAudited ? [] : [fact('Audited error', 'none', 'add --audit 1000 to check random texels by brute force')]),
       fact('Time', seconds(total), 'of the bake, all stages, wall clock'),
       fact('Rays', count(rays), 'traced to find what stands between texels and monitors'),
       fact('Memory', bytes(peak), 'at its peak'),
       fact('Density', `${short(manifest.map.texelsPerMetre)} /m`, 'texels per metre of charts that nothing weighs')),
+    errors.length > 1 ? errorTable(errors) : '',
     element('h3', {}, 'Texels by state'),
     ...manifest.monitors.map((monitor) => stateBar(manifest, monitor)).filter((bar) => bar !== null),
     notes(manifest) ?? '');
