@@ -6,7 +6,7 @@ packages=(g++ cmake ninja-build
     libembree-dev libopenmesh-dev libopenexr-dev libopenimageio-dev openimageio-tools libglm-dev libtinygltf-dev
     nlohmann-json3-dev libtbb-dev libcli11-dev libtomlplusplus-dev libfmt-dev libdraco-dev libmeshoptimizer-dev libhwy-dev libeigen3-dev libnanoflann-dev zlib1g-dev)
 if [[ ${1:-} == --tests ]]; then
-    packages+=(libgtest-dev libbenchmark-dev clang-format clang)
+    packages+=(libgtest-dev libbenchmark-dev clang-format clang chromium)
     # gltf-validator runs on Node.js, of any source.
     command -v node >/dev/null && command -v npm >/dev/null || packages+=(nodejs npm)
 fi

@@ -11,6 +11,7 @@
 #include "baker/report/bake_files.h"
 #include "baker/report/codes.h"
 #include "baker/report/difference.h"
+#include "baker/report/opening_view.h"
 #include "baker/report/scene_copy.h"
 #include "runtime/base/error.h"
 #include "runtime/base/random.h"
@@ -273,6 +274,23 @@ TEST(Report, ReadsNoFilesFromElsewhere) {
     EXPECT_TRUE(find_bake(paths.manifest_json).baked_glb.empty());
 }
 
+TEST(ReportView, StillsAreDarkerWithShadows) {
+    RoomFile file;
+    const OutputPaths paths = bake_to_disk(file);
+    const std::vector<VisibilityMap> maps{read_map_exr(paths.pages[0].visibility_exr)};
+    Scene baked = read_gltf(paths.baked_glb);
+    const OpeningView opening = open_view(baked, find_bake(paths.manifest_json), maps, true);
+    const auto without = decode_image(opening.stills.unshadowed, "x.png"),
+               with = decode_image(opening.stills.shadowed, "x.png");
+    ASSERT_EQ(without.pixels.size(), with.pixels.size());
+    size_t darker = 0;
+    for (size_t i = 0; i < with.pixels.size(); ++i) {
+        EXPECT_LE(with.pixels[i].x, without.pixels[i].x);
+        darker += with.pixels[i].x + 20 < without.pixels[i].x;
+    }
+    EXPECT_GT(darker, with.pixels.size() / 100);
+}
+
 /// The copy of a room whose material has a texture of this many pixels a side.
 struct CopiedRoom {
     RoomFile file;
@@ -311,8 +329,8 @@ TEST(ReportScene, ReplacesLargeTexturesByTheirMean) {
     EXPECT_LT(room.copy.bytes, 5000u);
     for (const Json& material : room.json["materials"]) {
         EXPECT_FALSE(material["pbrMetallicRoughness"].contains("baseColorTexture"));
-        // Codes are even from 0 to 255: the mean of their linear values.
-        EXPECT_NEAR(material["pbrMetallicRoughness"]["baseColorFactor"][0], 0.4466, 0.005);
+        // Codes are even from 0 to 255: the integral of their linear values, 1.055 / 3.4.
+        EXPECT_NEAR(material["pbrMetallicRoughness"]["baseColorFactor"][0], 0.3103, 0.003);
     }
     for (const Json& mesh : room.json["meshes"])
         EXPECT_FALSE(mesh["primitives"][0]["attributes"].contains("TEXCOORD_0"));

@@ -20,7 +20,7 @@ function bars({ channel, name }, { range, texels }) {
   const width = (2 * range) / texels.length;
   const places = texels.map((_, i) => -range + (i + 0.5) * width);
   return histogram(`histogram-${channel}`, `Distribution of the signed difference of ${name}`, places, texels,
-    { label: `map \u2212 reference, ${channel} ${name}; the ends hold all beyond`, nameOf: (place) => short(place, 2) });
+    { label: `map \u2212 reference, ${channel} ${name}; the ends hold all beyond`, quantity: 'difference', nameOf: (place) => short(place, 2) });
 }
 
 export function differenceSection(report, panels) {

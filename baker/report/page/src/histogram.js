@@ -5,7 +5,7 @@ import { css, palette } from './color_maps.js';
 import { axis, decades, plot } from './plot.js';
 import { count, short } from './numbers.js';
 
-/** `counts[i]` texels lie at `places[i]`; `ticks` names the places. */
+/** `counts[i]` texels lie at `places[i]`; `xAxis` is { label, quantity, nameOf(place) }. */
 export function histogram(id, label, places, counts, xAxis) {
   const half = (0.6 * (places.at(-1) - places[0])) / Math.max(1, places.length - 1);
   const options = {
@@ -14,7 +14,7 @@ export function histogram(id, label, places, counts, xAxis) {
     scales: { x: { time: false, range: (_, low, high) => [low - half, high + half] }, y: { distr: 3, range: (_, low, high) => [0.5, Math.max(10, 2 * high)] } },
     axes: [axis(xAxis.label, { values: (_, splits) => splits.map(xAxis.nameOf), space: 76 }),
       axis('texels', { splits: decades, filter: (_, splits) => splits, values: (_, splits) => splits.map(count), size: 76 })],
-    series: [{ label: xAxis.label, value: (_, place) => (place === null ? '' : xAxis.nameOf(place)) }, {
+    series: [{ label: xAxis.quantity, value: (_, place) => (place === null ? '' : xAxis.nameOf(place)) }, {
       label: 'texels', stroke: css(palette.blue), fill: css(palette.sky), width: 1,
       paths: uPlot.paths.bars({ size: [0.9, 60] }), points: { show: false },
       value: (_, n) => (n === null ? '0' : count(n)),
@@ -30,5 +30,5 @@ export function errorHistogram({ channel, name }, { below, texels }) {
     return place === 0 ? 'exact' : `< ${short(below[place], 2)}`;
   };
   return histogram(`estimates-${channel}`, `Distribution of the estimated errors of ${name}`,
-    below.map((_, i) => i), texels, { label: `estimated error of V, ${channel} ${name}`, nameOf });
+    below.map((_, i) => i), texels, { label: `estimated error of V, ${channel} ${name}`, quantity: 'error', nameOf });
 }

@@ -115,8 +115,11 @@ function letBorderBeDragged(stage, handle) {
 
 export function liveSection(report, decoded) {
   const why = whyNoScene(report);
-  if (why !== null)
-    return section('live', 'The room', why, report.view?.stills ? stills(report.view.stills) : '');
+  if (why !== null) {
+    const part = section('live', 'The room', why, report.view?.stills ? stills(report.view.stills) : '');
+    part.dataset.state = 'none';
+    return part;
+  }
   const canvas = element('canvas', { id: 'view', role: 'img', 'aria-label': 'The baked scene, lit by its monitors' });
   const handle = element('div', { class: 'border', title: 'Drag: without shadows on the left, with the map on the right' });
   const stage = element('div', { class: 'stage', style: '--split: 50%', 'data-mode': 'both' }, canvas, handle,

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// A room of three monitors over a floor with a plate between, as glb. One node's name would run as a script, were it
+// ever read as HTML.
+import { writeFileSync } from 'node:fs';
+
+export const hostileName = 'Plate</script><img src=x onerror="hacked = 1"><script>hacked = 1</script>';
+
+/** Four corners, counter-clockwise seen from the front: [x, y, z] each. */
+const quads = [
+  { name: 'Floor', corners: [[-2, 0, 2], [2, 0, 2], [2, 0, -2], [-2, 0, -2]], emissive: [0, 0, 0] },
+  { name: hostileName, corners: [[-0.5, 0.7, 0.5], [0.5, 0.7, 0.5], [0.5, 0.7, -0.5], [-0.5, 0.7, -0.5]], emissive: [0, 0, 0] },
+  { name: 'Monitor_R', corners: [[-1.6, 0.6, 0.7], [-1.6, 0.6, -0.7], [-1.6, 1.6, -0.7], [-1.6, 1.6, 0.7]], emissive: [1, 0.6, 0.4] },
+  { name: 'Monitor_G', corners: [[1.6, 0.6, -0.7], [1.6, 0.6, 0.7], [1.6, 1.6, 0.7], [1.6, 1.6, -0.7]], emissive: [0.4, 1, 0.6] },
+  { name: 'Monitor_B', corners: [[-0.7, 0.6, -1.6], [0.7, 0.6, -1.6], [0.7, 1.6, -1.6], [-0.7, 1.6, -1.6]], emissive: [0.4, 0.6, 1] },
+];
+
+const floatType = 5126;
+const shortType = 5123;
+
+function padded(buffer, filler) {
+  return Buffer.concat([buffer, Buffer.alloc((4 - (buffer.length % 4)) % 4, filler)]);
+}
+
+/** `file`: where to write it. */
+export function writeRoom(file) {
+  const json = {
+    asset: { version: '2.0' }, scene: 0, scenes: [{ nodes: [] }], nodes: [], meshes: [], materials: [], accessors: [], bufferViews: [],
+  };
+  const parts = [];
+  let size = 0;
+  const addAccessor = (array, componentType, type, count, extra) => {
+    const bytes = padded(Buffer.from(array.buffer), 0);
+    json.bufferViews.push({ buffer: 0, byteOffset: size, byteLength: array.byteLength });
+    json.accessors.push({ bufferView: json.bufferViews.length - 1, componentType, type, count, ...extra });
+    parts.push(bytes);
+    size += bytes.length;
+    return json.accessors.length - 1;
+  };
+  for (const { name, corners, emissive } of quads) {
+    const bound = (pick) => [0, 1, 2].map((c) => Math.fround(pick(...corners.map((corner) => corner[c]))));
+    const POSITION = addAccessor(new Float32Array(corners.flat()), floatType, 'VEC3', 4, { min: bound(Math.min), max: bound(Math.max) });
+    const indices = addAccessor(new Uint16Array([0, 1, 2, 0, 2, 3]), shortType, 'SCALAR', 6, {});
+    json.materials.push({
+      name, doubleSided: true, emissiveFactor: emissive,
+      pbrMetallicRoughness: { baseColorFactor: [0.7, 0.7, 0.7, 1], metallicFactor: 0, roughnessFactor: 0.6 },
+    });
+    json.meshes.push({ primitives: [{ attributes: { POSITION }, indices, material: json.materials.length - 1 }] });
+    json.nodes.push({ name, mesh: json.meshes.length - 1 });
+    json.scenes[0].nodes.push(json.nodes.length - 1);
+  }
+  json.buffers = [{ byteLength: size }];
+  const text = padded(Buffer.from(JSON.stringify(json)), ' ');
+  const words = (...values) => Buffer.from(new Uint32Array(values).buffer);
+  writeFileSync(file, Buffer.concat([
+    words(0x46546c67, 2, 28 + text.length + size, text.length, 0x4e4f534a), text, words(size, 0x004e4942), ...parts,
+  ]));
+}
