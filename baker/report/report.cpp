@@ -115,7 +115,6 @@ Json vector_json(const Vec3& v) {
 Json view_section(const OpeningView& opening) {
     Json section{{"eye", vector_json(opening.view.eye)},
                  {"forward", vector_json(opening.view.forward)},
-                 {"up", vector_json(opening.view.up)},
                  {"yfov", opening.view.yfov},
                  {"exposure", opening.exposure}};
     if (!opening.stills.shadowed.empty())

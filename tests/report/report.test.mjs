@@ -53,6 +53,11 @@ function codeOf(x) {
   return 255 * (y <= 0.0031308 ? 12.92 * y : 1.055 * y ** (1 / 2.4) - 0.055);
 }
 
+/** At edges of shapes the samples of a pixel are averaged after the curve, so that nothing adds up there. */
+function isSmooth({ width, data }, i) {
+  return [-4, 4, -4 * width, 4 * width].every((step) => Math.abs((data[i + step] ?? data[i]) - data[i]) < 8);
+}
+
 const panelsOf = (...kinds) => kinds.flatMap((kind) => monitors.map((channel) => `${kind}-${channel}`));
 
 describe('a report opened from disk', () => {
@@ -91,7 +96,7 @@ describe('a report opened from disk', () => {
   it('fits a phone', async () => {
     for (const width of [320, 390]) {
       await page.setViewportSize({ width, height: 800 });
-      assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${width}`);
+      await page.waitForFunction(() => document.documentElement.scrollWidth <= innerWidth); // plots follow a frame later
     }
     await page.setViewportSize({ width: 500, height: 700 });
   });
@@ -201,17 +206,17 @@ describe('the live view', () => {
     }
     assert.ok(!singles[0].data.equals(singles[1].data) && !singles[1].data.equals(singles[2].data));
     await only(null);
+    assert.deepEqual((await view()).data, all.data);
+    await set(page, 'exposure', 0);
     let checked = 0;
     for (let i = 0; i < all.data.length; ++i) {
-      if (i % 4 === 3 || all.data[i] > 250) continue;
+      if (i % 4 === 3 || all.data[i] > 250 || ![all, ...singles].every((picture) => isSmooth(picture, i))) continue;
       const sum = (off) => singles.reduce((total, { data }) => total + radianceOf(Math.max(0, data[i] + off)), 0);
       const [low, high] = [codeOf(sum(-rounding)) - rounding, codeOf(sum(rounding)) + rounding];
       assert.ok(low <= all.data[i] && all.data[i] <= high, `${all.data[i]} is not in ${low} to ${high} at ${i}`);
       checked += Number(all.data[i] > 10);
     }
-    assert.ok(checked > 5000);
-    assert.deepEqual((await view()).data, all.data);
-    await set(page, 'exposure', 0);
+    assert.ok(checked > 5000, `${checked}`);
   });
 
   it('shows monitors that are off as black', async () => {

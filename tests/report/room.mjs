@@ -21,6 +21,16 @@ function padded(buffer, filler) {
   return Buffer.concat([buffer, Buffer.alloc((4 - (buffer.length % 4)) % 4, filler)]);
 }
 
+/** Where a camera stands that looks at the middle of the plate: columns right, up, back, eye. */
+const eye = [1.3, 1.7, 2.6];
+function cameraMatrix() {
+  const unit = (v) => v.map((x) => x / Math.hypot(...v));
+  const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+  const back = unit([eye[0], eye[1] - 0.5, eye[2]]);
+  const right = unit(cross([0, 1, 0], back));
+  return [...right, 0, ...cross(back, right), 0, ...back, 0, ...eye, 1];
+}
+
 /** `file`: where to write it. */
 export function writeRoom(file) {
   const json = {
@@ -48,6 +58,9 @@ export function writeRoom(file) {
     json.nodes.push({ name, mesh: json.meshes.length - 1 });
     json.scenes[0].nodes.push(json.nodes.length - 1);
   }
+  json.cameras = [{ type: 'perspective', perspective: { yfov: 0.9, znear: 0.01 } }];
+  json.scenes[0].nodes.push(json.nodes.length);
+  json.nodes.push({ name: 'Camera', camera: 0, matrix: cameraMatrix() });
   json.buffers = [{ byteLength: size }];
   const text = padded(Buffer.from(JSON.stringify(json)), ' ');
   const words = (...values) => Buffer.from(new Uint32Array(values).buffer);

@@ -77,7 +77,7 @@ function makeControls(view, stage) {
     stage.dataset.mode = mode;
     view.setMode(mode);
   };
-  return element('div', { class: 'controls' },
+  return element('div', { class: 'controls live' },
     element('div', {}, choice('mode', 'Shadows', [['both', 'Both'], ['map', 'With the map'], ['none', 'Without']], 'both', setMode),
       element('div', { class: 'slider' }, element('label', { for: 'split' }, 'Border'), border)),
     ...view.shines.map((_, index) => monitorControls(view, index)),

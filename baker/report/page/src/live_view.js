@@ -16,6 +16,8 @@ const filmic = `vec3 CustomToneMapping( vec3 color ) {
 	return clamp( color * ( 2.51 * color + 0.03 ) / ( color * ( 2.43 * color + 0.59 ) + 0.14 ), 0.0, 1.0 );
 }`;
 
+const fromPole = 0.02; // radians
+
 async function unpack(uri) {
   const packed = new Blob([bytesOf(uri)]).stream();
   return new Response(packed.pipeThrough(new DecompressionStream('gzip'))).arrayBuffer();
@@ -46,6 +48,8 @@ export class LiveView {
     this.renderer.toneMapping = CustomToneMapping;
     this.camera = new PerspectiveCamera((report.view.yfov * 180) / Math.PI, 16 / 9, 0.01, 1000);
     this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.minPolarAngle = fromPole; // seen from straight above, turning would have no direction
+    this.controls.maxPolarAngle = Math.PI - fromPole;
     this.controls.addEventListener('change', () => this.draw());
   }
 
@@ -72,12 +76,10 @@ export class LiveView {
   }
 
   resetCamera() {
-    const { eye, forward, up } = this.report.view;
+    const { eye, forward } = this.report.view;
     this.camera.position.set(...eye);
-    this.camera.up.set(0, 1, 0);
     const reach = this.#distanceToMonitors(new Vector3(...eye), new Vector3(...forward));
     this.controls.target.set(...eye).addScaledVector(new Vector3(...forward), reach);
-    if (Math.abs(up[1]) < 1e-3) this.camera.up.set(...up);
     this.controls.update();
     this.draw();
   }

@@ -34,7 +34,7 @@ export class Panels {
     this.readouts = [];
   }
 
-  /** `paint(pictures)` returns the colour of pixel i, or null where the picture is missing. */
+  /** `paint(pictures)` returns the function that colours pixel i, or nothing where the picture is missing. */
   add(options, paint) {
     const panel = new Panel({ ...options, probe: (place) => this.#tell(place) });
     this.all.push({ panel, paint });
@@ -47,8 +47,8 @@ export class Panels {
     if (!first) return;
     for (const { panel, paint } of this.all) {
       const colorAt = paint(this.pictures);
-      panel.element.hidden = colorAt === null;
-      if (colorAt !== null) panel.show(first.width, first.height, this.hasOutlines ? this.#outlined(colorAt) : colorAt);
+      panel.element.hidden = !colorAt;
+      if (colorAt) panel.show(first.width, first.height, this.hasOutlines ? this.#outlined(colorAt) : colorAt);
     }
   }
 
@@ -108,10 +108,11 @@ function channelPanels(report, panels) {
 }
 
 function controls(report, panels, grid) {
+  const composite = choice('composite', 'Channels', [['grey', 'Each in grey'], ['rgb', 'R, G, B in one']], 'grey', (value) => {
+    grid.dataset.composite = value;
+  });
   const parts = [
-    choice('composite', 'Channels', [['grey', 'Each in grey'], ['rgb', 'R, G, B in one']], 'grey', (value) => {
-      grid.dataset.composite = value;
-    }),
+    report.manifest.monitors.length > 1 ? composite : '',
     choice('zoom', 'Size', [['fit', 'Fit'], ['1', '1:1'], ['4', '4:1']], 'fit', (value) => {
       document.documentElement.dataset.zoom = value;
     }),
@@ -162,9 +163,9 @@ function categoryPanel(panels, options, names, meanings, of, c) {
 
 export function heatSection(report, panels) {
   const { atlas: numbers, manifest } = report;
-  const grid = element('div', { class: 'panels' });
+  const rows = [];
   if (numbers)
-    grid.append(
+    rows.push([
       panels.add({
         id: 'density', title: 'Density', meaning: 'texels per metre in the worst direction',
         legend: scaleLegend(viridis, ['0', short(numbers.densityHigh / 2), `${short(numbers.densityHigh)} /m`],
@@ -173,18 +174,20 @@ export function heatSection(report, panels) {
       panels.add({
         id: 'stretch', title: 'Stretch', meaning: 'distortion against the chart\u2019s own density, worst direction',
         legend: scaleLegend(viridis, ['1: none', short((1 + numbers.stretchHigh) / 2), `${short(numbers.stretchHigh)} or more`]),
-      }, ({ atlas }) => atlas && ((i) => atlas.data[4 * i + 1] === 0 ? nothing : viridis[atlas.data[4 * i + 1]])));
+      }, ({ atlas }) => atlas && ((i) => atlas.data[4 * i + 1] === 0 ? nothing : viridis[atlas.data[4 * i + 1]])),
+    ]);
   for (const monitor of manifest.monitors) {
     const { channel, name } = monitor;
     const c = 'RGB'.indexOf(channel);
-    grid.append(errorPanel(report, panels, monitor),
+    rows.push([errorPanel(report, panels, monitor),
       categoryPanel(panels, { id: `state-${channel}`, title: `State, ${channel} ${name}`, meaning: 'what each texel is' },
         states, stateMeanings, stateOf, c),
       categoryPanel(panels, { id: `method-${channel}`, title: `Method, ${channel} ${name}`, meaning: 'what decided its value' },
-        methods, methodMeanings, methodOf, c));
+        methods, methodMeanings, methodOf, c)]);
   }
   return section('heat', 'Where and how well', 'Resolution, distortion, estimated error, state and method of every texel. ' +
-    'Grey: no value there.', panels.readout(), grid);
+    'Grey: no value there.', panels.readout(),
+  ...rows.map((row) => element('div', { class: 'panels' }, ...row)));
 }
 
 export function differencePanel(report, panels, { channel, name }, range) {

@@ -6,6 +6,7 @@ import { element } from './elements.js';
 
 const lineColors = [palette.blue, palette.vermilion, palette.green, palette.purple, palette.orange, palette.sky];
 const lineKinds = [{ dash: [], width: 3 }, { dash: [10, 5], width: 2 }, { dash: [2, 4], width: 2 }];
+const markerKinds = ['solid', 'dashed', 'dotted'];
 
 /** The line of member `index` of a group of lines: a group shares a dash, its members differ in colour. */
 export function lineStyle(group, index) {
@@ -18,6 +19,11 @@ export function axis(label, options = {}) {
     label, stroke: color('--ink'), grid: { stroke: color('--line'), width: 1 }, ticks: { stroke: color('--line'), width: 1 },
     labelSize: 24, size: 58, ...options,
   };
+}
+
+/** How the lines of a group are framed in the legend, as CSS has it. */
+export function markerStyle(group) {
+  return markerKinds[group % markerKinds.length];
 }
 
 /** Gridlines of a logarithmic axis at powers of ten alone. */

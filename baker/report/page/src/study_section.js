@@ -3,7 +3,7 @@
 import uPlot from 'uplot';
 import { element, section, table } from './elements.js';
 import { rays, seconds, short } from './numbers.js';
-import { axis, decades, lineStyle, plot } from './plot.js';
+import { axis, decades, lineStyle, markerStyle, plot } from './plot.js';
 
 /** Lines through settings of each technique: seconds a texel against RMSE, both logarithmic. */
 function accuracyPlot(study) {
@@ -24,6 +24,7 @@ function accuracyPlot(study) {
     axes: [axis('CPU time for a texel', log(seconds)), axis('RMS error of visibility', { ...log(short), size: 70 })],
     cursor: { focus: { prox: 24 }, drag: { x: true, y: true } },
     focus: { alpha: 0.25 },
+    legend: { markers: { width: 3, dash: (_, i) => (i > 0 ? markerStyle(families.indexOf(shown[i - 1].family)) : 'solid') } },
     series: [{ label: 'time', value: (_, x) => (x === null ? '' : seconds(x)) },
       ...shown.map((technique) => ({
         label: technique.label, ...styleOf(technique), spanGaps: true, points: { show: true, size: 6 },
