@@ -8,27 +8,28 @@
 
 namespace surimi {
 
-/// Errors are coded by their logarithm, from 2^-error_octaves up to 1.
+/// Logarithmic codes tell values apart that differ by a fourth of an octave, 9 % up or down: finer ones would be noise,
+/// and noise does not compress.
+inline constexpr int steps_per_octave = 4;
+/// Errors are told apart from 2^-error_octaves up to 1.
 inline constexpr int error_octaves = 16;
-/// Signed differences likewise, from 2^-difference_octaves up to 1, on both sides of 128.
-inline constexpr int difference_octaves = 14;
+/// Signed differences likewise, from 2^-difference_octaves up to 1.
+inline constexpr int difference_octaves = 12;
 
-/// Where `magnitude` lies between 2^-octaves (0) and 1 (1), in the logarithm; below 0 what is smaller.
-inline double log_place(double magnitude, int octaves) {
-    return magnitude > 0 ? std::min(1.0, 1 + std::log2(magnitude) / octaves) : -1;
+/// Steps from 2^-octaves up to `magnitude`, at most those to 1; -1: it lies below.
+inline int log_step(double magnitude, int octaves) {
+    const double place = magnitude > 0 ? std::log2(magnitude) + octaves : -1;
+    return place < 0 ? -1 : static_cast<int>(std::lround(steps_per_octave * std::min<double>(place, octaves)));
 }
 
-/// 1: below 2^-error_octaves; 2 to 255: that to 1.
+/// 1: below 2^-error_octaves; 2 and more: steps from there.
 inline uint8_t error_code(double error) {
-    const double place = log_place(error, error_octaves);
-    return place < 0 ? 1 : static_cast<uint8_t>(2 + std::lround(253 * place));
+    return static_cast<uint8_t>(2 + log_step(error, error_octaves));
 }
 
-/// 128: nearer than 2^-difference_octaves to 0; 129 to 255 above, 127 to 1 below.
+/// 128: nearer to 0 than 2^-difference_octaves; 129 and more: steps above; 127 and less: steps below.
 inline uint8_t difference_code(double difference) {
-    const double place = log_place(std::abs(difference), difference_octaves);
-    if (place < 0) return 128;
-    const long step = 1 + std::lround(126 * place);
+    const int step = 1 + log_step(std::abs(difference), difference_octaves);
     return static_cast<uint8_t>(difference < 0 ? 128 - step : 128 + step);
 }
 

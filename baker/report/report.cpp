@@ -147,16 +147,18 @@ std::string make_report(const ReportRequest& request) {
     const BakeFiles files = find_bake(request.bake);
     const std::vector<LoadedPage> pages = load_pages(files, request);
     const int reduction = (std::max({files.width, files.height, 1}) + largest_picture - 1) / largest_picture;
-    Json report{
-        {"manifest", files.manifest},
-        {"program", "surimi " SURIMI_VERSION},
-        {"name", files.name},
-        {"complaints", files.complaints},
-        {"command", command_of(files)},
-        {"toml", toml_of(files)},
-        {"codes",
-         {{"errorOctaves", error_octaves}, {"differenceOctaves", difference_octaves}, {"reduction", reduction}}},
-        {"pages", Json::array()}};
+    Json report{{"manifest", files.manifest},
+                {"program", "surimi " SURIMI_VERSION},
+                {"name", files.name},
+                {"complaints", files.complaints},
+                {"command", command_of(files)},
+                {"toml", toml_of(files)},
+                {"codes",
+                 {{"stepsPerOctave", steps_per_octave},
+                  {"errorOctaves", error_octaves},
+                  {"differenceOctaves", difference_octaves},
+                  {"reduction", reduction}}},
+                {"pages", Json::array()}};
     for (size_t p = 0; p < pages.size(); ++p)
         report["pages"].push_back({{"pictures", map_pictures(pages[p], files.pages[p], reduction)}});
     if (!files.baked_glb.empty()) add_scene(files, pages, reduction, report);

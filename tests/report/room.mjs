@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// A room of three monitors over a floor with a plate between, as glb. One node's name would run as a script, were it
-// ever read as HTML.
+// A room of three monitors over a floor with a plate between, as glb. The name of a monitor would run as a script, were
+// it ever read as HTML.
 import { writeFileSync } from 'node:fs';
 
-export const hostileName = 'Plate</script><img src=x onerror="hacked = 1"><script>hacked = 1</script>';
+export const hostileName = 'TV</script><img src=x onerror="hacked = 1"><script>hacked = 1</script>';
 
 /** Four corners, counter-clockwise seen from the front: [x, y, z] each. */
 const quads = [
   { name: 'Floor', corners: [[-2, 0, 2], [2, 0, 2], [2, 0, -2], [-2, 0, -2]], emissive: [0, 0, 0] },
-  { name: hostileName, corners: [[-0.5, 0.7, 0.5], [0.5, 0.7, 0.5], [0.5, 0.7, -0.5], [-0.5, 0.7, -0.5]], emissive: [0, 0, 0] },
-  { name: 'Monitor_R', corners: [[-1.6, 0.6, 0.7], [-1.6, 0.6, -0.7], [-1.6, 1.6, -0.7], [-1.6, 1.6, 0.7]], emissive: [1, 0.6, 0.4] },
-  { name: 'Monitor_G', corners: [[1.6, 0.6, -0.7], [1.6, 0.6, 0.7], [1.6, 1.6, 0.7], [1.6, 1.6, -0.7]], emissive: [0.4, 1, 0.6] },
-  { name: 'Monitor_B', corners: [[-0.7, 0.6, -1.6], [0.7, 0.6, -1.6], [0.7, 1.6, -1.6], [-0.7, 1.6, -1.6]], emissive: [0.4, 0.6, 1] },
+  { name: 'Plate', corners: [[-0.5, 0.7, 0.5], [0.5, 0.7, 0.5], [0.5, 0.7, -0.5], [-0.5, 0.7, -0.5]], emissive: [0, 0, 0] },
+  { name: hostileName, monitor: 'R', corners: [[-1.6, 0.6, 0.7], [-1.6, 0.6, -0.7], [-1.6, 1.6, -0.7], [-1.6, 1.6, 0.7]], emissive: [1, 0.6, 0.4] },
+  { name: 'Monitor_G', monitor: 'G', corners: [[1.6, 0.6, -0.7], [1.6, 0.6, 0.7], [1.6, 1.6, 0.7], [1.6, 1.6, -0.7]], emissive: [0.4, 1, 0.6] },
+  { name: 'Monitor_B', monitor: 'B', corners: [[-0.7, 0.6, -1.6], [0.7, 0.6, -1.6], [0.7, 1.6, -1.6], [-0.7, 1.6, -1.6]], emissive: [0.4, 0.6, 1] },
 ];
 
 const floatType = 5126;
@@ -46,7 +46,7 @@ export function writeRoom(file) {
     size += bytes.length;
     return json.accessors.length - 1;
   };
-  for (const { name, corners, emissive } of quads) {
+  for (const { name, corners, emissive, monitor } of quads) {
     const bound = (pick) => [0, 1, 2].map((c) => Math.fround(pick(...corners.map((corner) => corner[c]))));
     const POSITION = addAccessor(new Float32Array(corners.flat()), floatType, 'VEC3', 4, { min: bound(Math.min), max: bound(Math.max) });
     const indices = addAccessor(new Uint16Array([0, 1, 2, 0, 2, 3]), shortType, 'SCALAR', 6, {});
@@ -55,7 +55,7 @@ export function writeRoom(file) {
       pbrMetallicRoughness: { baseColorFactor: [0.7, 0.7, 0.7, 1], metallicFactor: 0, roughnessFactor: 0.6 },
     });
     json.meshes.push({ primitives: [{ attributes: { POSITION }, indices, material: json.materials.length - 1 }] });
-    json.nodes.push({ name, mesh: json.meshes.length - 1 });
+    json.nodes.push({ name, mesh: json.meshes.length - 1, ...(monitor ? { extras: { monitor } } : {}) });
     json.scenes[0].nodes.push(json.nodes.length - 1);
   }
   json.cameras = [{ type: 'perspective', perspective: { yfov: 0.9, znear: 0.01 } }];

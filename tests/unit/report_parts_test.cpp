@@ -73,19 +73,19 @@ TEST(ReportPage, AsksForNothingFromElsewhere) {
 
 TEST(ReportCodes, KeepErrorsByTheirLogarithm) {
     EXPECT_EQ(error_code(0), 1);
-    EXPECT_EQ(error_code(1), 255);
-    EXPECT_EQ(error_code(2), 255);
+    EXPECT_EQ(error_code(1), 2 + steps_per_octave * error_octaves);
+    EXPECT_EQ(error_code(2), error_code(1));
     EXPECT_EQ(error_code(std::exp2(-error_octaves)), 2);
     for (double error = 1; error > 1e-4; error *= 0.83) {
-        const double back = std::exp2(error_octaves * ((error_code(error) - 2) / 253.0 - 1));
-        EXPECT_NEAR(std::log2(back / error), 0, 0.5 * error_octaves / 253.0 + 1e-9);
+        const double octaves = (error_code(error) - 2.0) / steps_per_octave - error_octaves;
+        EXPECT_NEAR(octaves, std::log2(error), 0.5 / steps_per_octave + 1e-9);
     }
 }
 
 TEST(ReportCodes, DifferencesAreSymmetric) {
     EXPECT_EQ(difference_code(0), 128);
-    EXPECT_EQ(difference_code(1), 255);
-    EXPECT_EQ(difference_code(-1), 1);
+    EXPECT_EQ(difference_code(std::exp2(-difference_octaves)), 129);
+    EXPECT_EQ(difference_code(-1), 128 - 1 - steps_per_octave * difference_octaves);
     for (const double d : {1e-3, 0.02, 0.3}) EXPECT_EQ(difference_code(d) - 128, 128 - difference_code(-d));
 }
 

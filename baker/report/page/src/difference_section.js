@@ -20,7 +20,7 @@ function bars({ channel, name }, { range, texels }) {
   const width = (2 * range) / texels.length;
   const places = texels.map((_, i) => -range + (i + 0.5) * width);
   return histogram(`histogram-${channel}`, `Distribution of the signed difference of ${name}`, places, texels,
-    { label: `map \u2212 reference, ${channel} ${name}; the ends hold all beyond`, quantity: 'difference', nameOf: (place) => short(place, 2) });
+    { label: `map \u2212 reference, ${channel} ${name}`, quantity: 'difference', nameOf: (place) => short(place, 2) });
 }
 
 export function differenceSection(report, panels) {
@@ -34,5 +34,6 @@ export function differenceSection(report, panels) {
     panels.readout(),
     element('div', { class: 'panels' }, ...compared.map((monitor) =>
       differencePanel(report, panels, monitor, reference.channels[monitor.channel].histogram.range))),
-    ...compared.map((monitor) => bars(monitor, reference.channels[monitor.channel].histogram)));
+    ...compared.map((monitor) => bars(monitor, reference.channels[monitor.channel].histogram)),
+    element('p', { class: 'quiet' }, 'Texels by signed difference, on a logarithmic scale; the bars at the ends hold all beyond.'));
 }

@@ -12,7 +12,7 @@ export function histogram(id, label, places, counts, xAxis) {
     height: 240,
     cursor: { drag: { x: false, y: false } },
     scales: { x: { time: false, range: (_, low, high) => [low - half, high + half] }, y: { distr: 3, range: (_, low, high) => [0.5, Math.max(10, 2 * high)] } },
-    axes: [axis(xAxis.label, { values: (_, splits) => splits.map(xAxis.nameOf), space: 76 }),
+    axes: [axis(xAxis.label, { values: (_, splits) => splits.map(xAxis.nameOf), space: 58 }),
       axis('texels', { splits: decades, filter: (_, splits) => splits, values: (_, splits) => splits.map(count), size: 76 })],
     series: [{ label: xAxis.quantity, value: (_, place) => (place === null ? '' : xAxis.nameOf(place)) }, {
       label: 'texels', stroke: css(palette.blue), fill: css(palette.sky), width: 1,

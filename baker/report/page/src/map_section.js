@@ -79,9 +79,9 @@ export class Panels {
     for (const { channel } of manifest.monitors) {
       const k = 4 * i + 'RGB'.indexOf(channel);
       const words = [map ? `${channel} = ${short(linearOf(map.data[k]))}` : channel];
-      const estimate = error ? errorOf(error.data[k], codes.errorOctaves) : null;
+      const estimate = error ? errorOf(error.data[k], codes) : null;
       if (estimate !== null) words.push(`\u00b1 ${short(estimate, 2)}`);
-      const off = difference ? differenceOf(difference.data[k], codes.differenceOctaves) : null;
+      const off = difference ? differenceOf(difference.data[k], codes) : null;
       if (off !== null) words.push(`off by ${short(off, 2)}`);
       if (state) words.push(states[stateOf(state.data[k])], titleOf(methods[methodOf(state.data[k])]));
       parts.push(words.join(' '));
@@ -144,14 +144,13 @@ export function mapSection(report, panels) {
 
 function errorPanel(report, panels, { channel, name }) {
   const c = 'RGB'.indexOf(channel);
-  const { errorOctaves } = report.codes;
   const asked = report.manifest.settings.error;
   return panels.add({
     id: `error-${channel}`, title: `Error, ${channel} ${name}`, meaning: 'standard error of visibility, estimated',
     legend: scaleLegend(magma, [short(asked / 16), short(asked / 4), short(asked), short(4 * asked), short(16 * asked)],
       'logarithmic, with the error asked for in the middle; what lies beyond has the colours of the ends'),
   }, ({ error }) => error && ((i) => {
-    const value = errorOf(error.data[4 * i + c], errorOctaves);
+    const value = errorOf(error.data[4 * i + c], report.codes);
     return value === null ? nothing : scaleColor(magma, Math.log2(Math.max(value, 1e-9) / asked), -4, 4);
   }));
 }
@@ -197,7 +196,7 @@ export function differencePanel(report, panels, { channel, name }, range) {
     legend: scaleLegend(balance, [`\u2212${short(range)}: darker`, '0', `+${short(range)}: brighter`],
       'grey: not compared'),
   }, ({ difference }) => difference && ((i) => {
-    const value = differenceOf(difference.data[4 * i + c], report.codes.differenceOctaves);
+    const value = differenceOf(difference.data[4 * i + c], report.codes);
     return value === null ? nothing : scaleColor(balance, value, -range, range);
   }));
 }

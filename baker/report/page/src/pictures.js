@@ -28,16 +28,16 @@ export function linearOf(code) {
   return encoded <= 0.04045 ? encoded / 12.92 : ((encoded + 0.055) / 1.055) ** 2.4;
 }
 
-/** null: no value; 0: below what is told apart. */
-export function errorOf(code, octaves) {
+/** null: no value; 0: below what is told apart. `codes` are those of the report. */
+export function errorOf(code, { stepsPerOctave, errorOctaves }) {
   if (code === 0) return null;
-  return code === 1 ? 0 : 2 ** (octaves * ((code - 2) / 253 - 1));
+  return code === 1 ? 0 : 2 ** ((code - 2) / stepsPerOctave - errorOctaves);
 }
 
-export function differenceOf(code, octaves) {
+export function differenceOf(code, { stepsPerOctave, differenceOctaves }) {
   if (code === 0) return null;
   const step = code - 128;
-  return step === 0 ? 0 : Math.sign(step) * 2 ** (octaves * ((Math.abs(step) - 1) / 126 - 1));
+  return step === 0 ? 0 : Math.sign(step) * 2 ** ((Math.abs(step) - 1) / stepsPerOctave - differenceOctaves);
 }
 
 export function linearCodeOf(code, low, high) {
