@@ -6,6 +6,7 @@ import { cpSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import path from 'node:path';
 import { after, before, describe, it } from 'node:test';
+import { differenceOf, errorOf, linearCodeOf } from '../../baker/report/page/src/pictures.js';
 import { changed, launch, look, open, press, set } from './browser.mjs';
 import { hostileName, writeRoom } from './room.mjs';
 
@@ -59,6 +60,19 @@ function isSmooth({ width, data }, i) {
 }
 
 const panelsOf = (...kinds) => kinds.flatMap((kind) => monitors.map((channel) => `${kind}-${channel}`));
+
+describe('codes', () => {
+  it('mean to the page what they mean to the program', async () => {
+    const { page } = await pageOf('out');
+    const { codes } = await page.evaluate(() => JSON.parse(document.getElementById('data').textContent));
+    await page.close();
+    const steps = codes.stepsPerOctave;
+    assert.deepEqual([0, 1, 2, 2 + steps * codes.errorOctaves].map((code) => errorOf(code, codes)), [null, 0, 2 ** -codes.errorOctaves, 1]);
+    assert.deepEqual([0, 128, 129, 128 - 1 - steps * codes.differenceOctaves].map((code) => differenceOf(code, codes)),
+      [null, 0, 2 ** -codes.differenceOctaves, -1]);
+    assert.deepEqual([0, 1, 128, 255].map((code) => linearCodeOf(code, 1, 3)), [null, 1, 2, 3]);
+  });
+});
 
 describe('a report opened from disk', () => {
   let page, complaints, first;
