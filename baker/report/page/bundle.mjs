@@ -10,7 +10,14 @@ const here = path.dirname(fileURLToPath(import.meta.url));
 const target = path.join(here, '..', 'page.html');
 const filledByTheProgram = ['<!-- title of the report -->', '<!-- data of the report -->'];
 
-async function bundled(entry) {
+/** The licences of what is bundled ask to stay with it. */
+function licences() {
+  const texts = ['three', 'uplot'].map((name) => `${name}\n\n${readFileSync(path.join(here, 'node_modules', name, 'LICENSE'), 'utf8')}`);
+  return `/*! This script holds surimi-three and surimi-glb (Apache-2.0) and\n\n${texts.join('\n')}\nThe tables of linearly ` +
+    'transformed cosines in it are those of Heitz, Dupuy, Hill and Neubelt 2016. */';
+}
+
+async function bundled(entry, banner = '') {
   const result = await esbuild.build({
     entryPoints: [path.join(here, entry)],
     bundle: true,
@@ -18,7 +25,7 @@ async function bundled(entry) {
     format: 'iife',
     target: 'es2022',
     charset: 'ascii',
-    legalComments: 'inline',
+    banner: { js: banner },
     preserveSymlinks: true, // surimi-three takes the three of the page
     write: false,
     logLevel: 'warning',
@@ -34,7 +41,7 @@ function fill(page, mark, content) {
   return parts.join(content);
 }
 
-const script = (await bundled('src/main.js')).replaceAll('</script', '<\\/script').replaceAll('<!--', '<\\!--');
+const script = (await bundled('src/main.js', licences())).replaceAll('</script', '<\\/script').replaceAll('<!--', '<\\!--');
 const hash = createHash('sha256').update(script).digest('base64');
 let page = readFileSync(path.join(here, 'template.html'), 'utf8');
 page = fill(page, '<!-- hash of the script -->', `'sha256-${hash}'`);
