@@ -183,6 +183,32 @@ TEST(Shade, PointsOfAllMaterialsInOneBatchGetWhatTheyGetAlone) {
     EXPECT_GT(lit, 10);
 }
 
+TEST(Shade, ThreeShowsNothingSmootherThanItsLeastRoughness) {
+    const Scene scene = test::kanikama_room();
+    const std::vector<VisibilityMap> pages;
+    const RayScene rays(scene, Attach::everything);
+    LightingSettings settings;
+    const auto specular_of = [&](ShadingModel model, double roughness) {
+        settings.model = model;
+        const Lighting lighting = lighting_of(scene, pages, rays, settings);
+        const Monitor& monitor = scene.monitors.front();
+        const Vec3 front = front_normal(monitor.panels.front()), center = monitor.panels.front().corners.front();
+        ShadingPoint point;
+        point.at.triangle.surface = 0;
+        point.at.position = center + 2.0 * front;
+        point.normal = normalize_or(-front + 0.3 * Vec3(0, 1, 0), {0, 1, 0});
+        point.view = normalize_or(-front + 0.5 * Vec3(0, 1, 0), {0, 1, 0});
+        point.roughness = roughness;
+        std::vector<Parts> reflected(1);
+        std::vector<MonitorCounts> counts(scene.monitors.size());
+        shade(lighting, {&point, 1}, reflected, counts);
+        return reflected[0].specular.x;
+    };
+    EXPECT_EQ(specular_of(ShadingModel::three, 0.01), specular_of(ShadingModel::three, 0.045));
+    EXPECT_NE(specular_of(ShadingModel::three, 0.045), specular_of(ShadingModel::three, 0.06));
+    EXPECT_NE(specular_of(ShadingModel::kanikama, 0.01), specular_of(ShadingModel::kanikama, 0.045));
+}
+
 TEST(ShadingPlan, ComputesOnlyWhatTheSceneCallsFor) {
     Stage stage;
     const RayScene rays(stage.scene);

@@ -26,6 +26,7 @@ int main(int argc, char** argv) {
     if (file == nullptr) return 6;
     bool is_written = true;
     for (const auto* texture : {&matrices, &albedos})
-        is_written = is_written && std::fwrite(texture->data(), sizeof(float), texture->size(), file) == texture->size();
+        is_written =
+            is_written && std::fwrite(texture->data(), sizeof(float), texture->size(), file) == texture->size();
     return std::fclose(file) == 0 && is_written ? 0 : 6;
 }

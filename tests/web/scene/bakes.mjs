@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // The room of the tests, baked once: one/ on one map, two/ on two.
 import { execFileSync } from 'node:child_process';
-import { existsSync, mkdirSync } from 'node:fs';
+import { copyFileSync, existsSync, mkdirSync } from 'node:fs';
 import path from 'node:path';
+import { fileURLToPath } from 'node:url';
+import process from 'node:process';
 import { writeRoom } from './room.mjs';
+
+const table = fileURLToPath(new URL('../../../samples/web/surimi-babylon/areaLightsLTC.bin', import.meta.url));
 
 /** The folder with room.glb, one/ and two/; environment: SURIMI the program, SURIMI_WEB_WORK the folder. */
 export async function bakedFolder() {
   const folder = path.resolve(process.env.SURIMI_WEB_WORK);
   if (existsSync(path.join(folder, 'two'))) return folder;
   mkdirSync(folder, { recursive: true });
+  copyFileSync(table, path.join(folder, 'areaLightsLTC.bin'));
   const scene = path.join(folder, 'room.glb');
   await writeRoom(scene);
   const bake = (name, ...options) =>
