@@ -42,6 +42,18 @@ struct BakeOptions {
     bool no_report = false;
 };
 
+/// Writes the report unless the user wants none, or bounds the memory, which reading a large bake back would exceed.
+void add_report(const BakeOptions& options, const Config& config, const OutputPaths& paths,
+                std::vector<std::filesystem::path>& written) {
+    if (options.no_report) return;
+    if (config.bake.memory == 0) {
+        written.push_back(write_report({paths.manifest_json, {}, {}, {}}));
+    } else if (!options.given.quiet) {
+        fmt::print(stderr, "note: no report, since --memory bounds the bake; surimi report {} writes one\n",
+                   options.out.string());
+    }
+}
+
 int bake_scene(const BakeOptions& options) {
     const Given& given = options.given;
     const std::filesystem::path& out = options.out;
@@ -63,7 +75,7 @@ int bake_scene(const BakeOptions& options) {
     });
     const OutputPaths paths = write_bake(out, scene, result, settings_json(config));
     std::vector<std::filesystem::path> written = paths.all();
-    if (!options.no_report) written.push_back(write_report({paths.manifest_json, {}, {}, {}}));
+    add_report(options, config, paths, written);
     if (!given.quiet) print_summary(scene, result);
     if (given.json) {
         std::ifstream manifest(paths.manifest_json);
@@ -84,7 +96,7 @@ Run add_bake_command(CLI::App& app) {
     add_unwrap_options(*command, options->given);
     add_gather_options(*command, options->given.gather.emplace());
     add_fix_options(*command, options->given.without);
-    command->add_flag("--no-report", options->no_report, "Write no NAME.report.html");
+    command->add_flag("--no-report", options->no_report, "Write no NAME.report.html; --memory implies it");
     command->add_option("-o,--output", options->out, "Folder to write to [out]")->type_name("FOLDER");
     return [options] { return bake_scene(*options); };
 }

@@ -145,7 +145,7 @@ void add_scene(const BakeFiles& files, const std::vector<LoadedPage>& pages, int
 
 std::string make_report(const ReportRequest& request) {
     const BakeFiles files = find_bake(request.bake);
-    const std::vector<LoadedPage> pages = load_pages(files, request);
+    std::vector<LoadedPage> pages = load_pages(files, request);
     const int reduction = (std::max({files.width, files.height, 1}) + largest_picture - 1) / largest_picture;
     Json report{{"manifest", files.manifest},
                 {"program", "surimi " SURIMI_VERSION},
@@ -161,8 +161,9 @@ std::string make_report(const ReportRequest& request) {
                 {"pages", Json::array()}};
     for (size_t p = 0; p < pages.size(); ++p)
         report["pages"].push_back({{"pictures", map_pictures(pages[p], files.pages[p], reduction)}});
-    if (!files.baked_glb.empty()) add_scene(files, pages, reduction, report);
     report["reference"] = reference_section(pages, files, request);
+    for (LoadedPage& page : pages) page.evidence.reset();  // the largest part, and told
+    if (!files.baked_glb.empty()) add_scene(files, pages, reduction, report);
     report["study"] = study_section(files, request);
     return make_page(files.name, report);
 }

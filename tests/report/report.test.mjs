@@ -61,6 +61,18 @@ function isSmooth({ width, data }, i) {
 
 const panelsOf = (...kinds) => kinds.flatMap((kind) => monitors.map((channel) => `${kind}-${channel}`));
 
+describe('surimi bake', () => {
+  it('writes the report unless told otherwise', () => {
+    const pages = (...words) => {
+      const written = run('bake', 'room.glb', '--size', '32', '--error', '0.1', '--uv-quality', 'draft', '--quiet', '-o', 'again', ...words);
+      return written.split('\n').filter((line) => line.endsWith('.html'));
+    };
+    assert.deepEqual(pages('--no-report'), []);
+    assert.deepEqual(pages('--memory', '4096'), []);
+    assert.deepEqual(pages(), ['again/room.report.html']);
+  });
+});
+
 describe('codes', () => {
   it('mean to the page what they mean to the program', async () => {
     const { page } = await pageOf('out');
