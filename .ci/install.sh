@@ -5,7 +5,7 @@ set -euo pipefail
 packages=(g++ cmake ninja-build
     libembree-dev libopenmesh-dev libopenexr-dev libopenimageio-dev openimageio-tools libglm-dev libtinygltf-dev
     nlohmann-json3-dev libtbb-dev libcli11-dev libtomlplusplus-dev libfmt-dev libdraco-dev libmeshoptimizer-dev libhwy-dev libeigen3-dev libnanoflann-dev
-    help2man)
+    zlib1g-dev help2man)
 if [[ ${1:-} == --tests ]]; then
     packages+=(libgtest-dev libbenchmark-dev clang-format clang dpkg-dev file chromium)
     # gltf-validator runs on Node.js, of any source.

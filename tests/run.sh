@@ -6,7 +6,7 @@ cd "$(dirname "$0")/.."
 shopt -s nullglob
 
 bash .ci/install.sh --tests
-for folder in tests/cli tests/web; do
+for folder in tests/cli tests/web tests/report baker/report/page; do
     (cd "$folder" && npm ci --silent --no-audit --no-fund)
 done
 if [[ -z ${SURIMI_SCENES:-} && -d ../shared/scenes ]]; then

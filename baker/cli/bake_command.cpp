@@ -15,6 +15,7 @@
 #include "baker/cli/progress.h"
 #include "baker/cli/time_budget.h"
 #include "baker/memory.h"
+#include "baker/report/report.h"
 #include "baker/write/output.h"
 #include "runtime/base/error.h"
 
@@ -36,7 +37,27 @@ void print_summary(const Scene& scene, const Bake& bake) {
     for (const std::string& warning : bake.warnings) fmt::print(stderr, "warning: {}\n", warning);
 }
 
-int bake_scene(const Given& given, const std::filesystem::path& out) {
+struct BakeOptions {
+    Given given;
+    std::filesystem::path out = "out";
+    bool no_report = false;
+};
+
+/// Writes the report unless the user wants none, or bounds the memory, which reading a large bake back would exceed.
+void add_report(const BakeOptions& options, const Config& config, const OutputPaths& paths,
+                std::vector<std::filesystem::path>& written) {
+    if (options.no_report) return;
+    if (config.bake.memory == 0) {
+        written.push_back(write_report({paths.manifest_json, {}, {}, {}}));
+    } else if (!options.given.quiet) {
+        fmt::print(stderr, "note: no report, since --memory bounds the bake; surimi report {} writes one\n",
+                   options.out.string());
+    }
+}
+
+int bake_scene(const BakeOptions& options) {
+    const Given& given = options.given;
+    const std::filesystem::path& out = options.out;
     Config config = effective_config(given);
     if (given.print_config) {
         fmt::print("{}", to_toml(config));
@@ -55,12 +76,14 @@ int bake_scene(const Given& given, const std::filesystem::path& out) {
         result = bake(scene, config.bake, progress);
     });
     const OutputPaths paths = write_bake(out, scene, result, settings_json(config));
+    std::vector<std::filesystem::path> written = paths.all();
+    add_report(options, config, paths, written);
     if (!given.quiet) print_summary(scene, result);
     if (given.json) {
         std::ifstream manifest(paths.manifest_json);
         fmt::print("{}", std::string(std::istreambuf_iterator<char>(manifest), {}));
     } else {
-        for (const auto& path : paths.all()) fmt::print("{}\n", path.string());
+        for (const auto& path : written) fmt::print("{}\n", path.string());
     }
     if (config.is_strict) require_promises(scene, result);
     return 0;
@@ -69,15 +92,15 @@ int bake_scene(const Given& given, const std::filesystem::path& out) {
 }  // namespace
 
 Run add_bake_command(CLI::App& app) {
-    const auto given = std::make_shared<Given>();
-    const auto out = std::make_shared<std::filesystem::path>("out");
+    const auto options = std::make_shared<BakeOptions>();
     CLI::App* command = app.add_subcommand("bake", "Bake the visibility map of a scene's monitors");
-    add_scene_options(*command, *given);
-    add_unwrap_options(*command, *given);
-    add_gather_options(*command, given->gather.emplace());
-    add_fix_options(*command, given->without);
-    command->add_option("-o,--output", *out, "Folder to write to [out]")->type_name("FOLDER");
-    return [given, out] { return bake_scene(*given, *out); };
+    add_scene_options(*command, options->given);
+    add_unwrap_options(*command, options->given);
+    add_gather_options(*command, options->given.gather.emplace());
+    add_fix_options(*command, options->given.without);
+    command->add_flag("--no-report", options->no_report, "Write no NAME.report.html; --memory implies it");
+    command->add_option("-o,--output", options->out, "Folder to write to [out]")->type_name("FOLDER");
+    return [options] { return bake_scene(*options); };
 }
 
 }  // namespace surimi

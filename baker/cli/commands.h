@@ -24,5 +24,6 @@ Run add_validate_command(CLI::App& app);
 Run add_doctor_command(CLI::App& app);
 Run add_completion_command(CLI::App& app);
 Run add_ratio_command(CLI::App& app);
+Run add_report_command(CLI::App& app);
 
 }  // namespace surimi

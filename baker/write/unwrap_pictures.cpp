@@ -10,7 +10,7 @@
 
 #include "baker/unwrap/coverage.h"
 #include "baker/unwrap/measure.h"
-#include "baker/unwrap/raster.h"
+#include "baker/write/paint.h"
 #include "runtime/compare/compare.h"
 
 namespace surimi {
@@ -46,26 +46,6 @@ double picture_scale(const Atlas& atlas, int least) {
 
 glm::ivec2 picture_size(const Atlas& atlas, int least) {
     return glm::max(glm::ivec2(Vec2(atlas.width, atlas.height) * picture_scale(atlas, least)), glm::ivec2(1));
-}
-
-/// Gives every pixel that triangle i touches `value(i)`, the triangle that covers its centre before all others.
-template <class Pixel, class Value>
-void paint(const PlacedTriangles& placed, const Value& value, Image<Pixel>& image) {
-    for (const double reach : {0.5, 0.0})
-        for (size_t i = 0; i < placed.texels.size(); ++i)
-            visit_runs(placed.texels[i], reach, {image.width, 0, image.height}, [&](int row, int first, int last) {
-                std::fill_n(&image.at(first, row), last - first + 1, value(i));
-            });
-}
-
-void draw_line(const Vec2& from, const Vec2& to, const Color& color, Picture8& picture) {
-    const Vec2 way = to - from;
-    const int steps = std::max(1, static_cast<int>(std::ceil(std::max(std::abs(way.x), std::abs(way.y)))));
-    for (int i = 0; i <= steps; ++i) {
-        const glm::ivec2 p = glm::ivec2(glm::floor(from + way * (static_cast<double>(i) / steps)));
-        // A side at the map's end belongs to the last pixel.
-        picture.at(std::clamp(p.x, 0, picture.width - 1), std::clamp(p.y, 0, picture.height - 1)) = color;
-    }
 }
 
 /// Which charts meet when each takes the pixels nearest to it: for each chart the others, sorted.
