@@ -60,13 +60,14 @@ int study_scene(const Given& given, const StudyOptions& options) {
     const std::string name = scene.path.stem().string(), file = scene.path.filename().string();
     const std::string words = reading(result, file);
     const auto picture = options.out / (name + ".study.svg"), table = options.out / (name + ".study.csv"),
-               text = options.out / (name + ".study.md");
+               numbers = options.out / (name + ".study.json"), text = options.out / (name + ".study.md");
     PendingFiles pending;
     const auto write = [&](const std::filesystem::path& path, const std::string& content) {
         write_bytes(pending.add(path), std::span(reinterpret_cast<const uint8_t*>(content.data()), content.size()));
     };
     write(picture, to_svg(result, name));
     write(table, to_csv(result));
+    write(numbers, to_json(result, file));
     write(text, fmt::format("# {}: what accuracy costs\n\n{}\n![{}]({})\n\n{}", name, words, name,
                             picture.filename().string(), key_of(result)));
     pending.commit();
@@ -76,7 +77,7 @@ int study_scene(const Given& given, const StudyOptions& options) {
         return 0;
     }
     fmt::print("{}", words);
-    for (const auto& path : {picture, table, text}) fmt::print("{}\n", path.string());
+    for (const auto& path : {picture, table, numbers, text}) fmt::print("{}\n", path.string());
     return 0;
 }
 
