@@ -10,6 +10,7 @@
 #include "baker/cli/density_summary.h"
 #include "baker/cli/evidence_summary.h"
 #include "baker/cli/existing_uv.h"
+#include "baker/cli/export_options.h"
 #include "baker/cli/fix_options.h"
 #include "baker/cli/options.h"
 #include "baker/cli/progress.h"
@@ -36,8 +37,9 @@ void print_summary(const Scene& scene, const Bake& bake) {
     for (const std::string& warning : bake.warnings) fmt::print(stderr, "warning: {}\n", warning);
 }
 
-int bake_scene(const Given& given, const std::filesystem::path& out) {
+int bake_scene(const Given& given, const std::filesystem::path& out, const std::vector<std::string>& exports) {
     Config config = effective_config(given);
+    const std::vector<std::string> targets = parse_export_targets(exports, "--export");
     if (given.print_config) {
         fmt::print("{}", to_toml(config));
         return 0;
@@ -55,12 +57,14 @@ int bake_scene(const Given& given, const std::filesystem::path& out) {
         result = bake(scene, config.bake, progress);
     });
     const OutputPaths paths = write_bake(out, scene, result, settings_json(config));
+    const auto exported = export_from(paths.manifest_json, targets, given.quiet);
     if (!given.quiet) print_summary(scene, result);
     if (given.json) {
         std::ifstream manifest(paths.manifest_json);
         fmt::print("{}", std::string(std::istreambuf_iterator<char>(manifest), {}));
     } else {
         for (const auto& path : paths.all()) fmt::print("{}\n", path.string());
+        for (const auto& path : exported) fmt::print("{}\n", path.string());
     }
     if (config.is_strict) require_promises(scene, result);
     return 0;
@@ -71,13 +75,15 @@ int bake_scene(const Given& given, const std::filesystem::path& out) {
 Run add_bake_command(CLI::App& app) {
     const auto given = std::make_shared<Given>();
     const auto out = std::make_shared<std::filesystem::path>("out");
+    const auto exports = std::make_shared<std::vector<std::string>>();
     CLI::App* command = app.add_subcommand("bake", "Bake the visibility map of a scene's monitors");
     add_scene_options(*command, *given);
     add_unwrap_options(*command, *given);
     add_gather_options(*command, given->gather.emplace());
     add_fix_options(*command, given->without);
     command->add_option("-o,--output", *out, "Folder to write to [out]")->type_name("FOLDER");
-    return [given, out] { return bake_scene(*given, *out); };
+    add_export_option(*command, *exports);
+    return [given, out, exports] { return bake_scene(*given, *out, *exports); };
 }
 
 }  // namespace surimi

@@ -20,5 +20,6 @@ Run add_preview_command(CLI::App& app);
 Run add_compare_command(CLI::App& app);
 Run add_study_command(CLI::App& app);
 Run add_plan_command(CLI::App& app);
+Run add_export_command(CLI::App& app);
 
 }  // namespace surimi
