@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "baker/export/list.h"
-#include "baker/export/ltc_textures.h"
+#include "baker/export/lobe_tables.h"
 #include "baker/export/ltcgi_curve.h"
 #include "baker/export/templates.h"
 #include "baker/write/file.h"
@@ -19,6 +19,10 @@ ExportFile text_file(const std::filesystem::path& name, std::string text) {
     return {name, [text = std::move(text)](const std::filesystem::path& path) {
                 write_bytes(path, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
             }};
+}
+
+ExportFile binary_file(const std::filesystem::path& name, std::vector<uint8_t> bytes) {
+    return {name, [bytes = std::move(bytes)](const std::filesystem::path& path) { write_bytes(path, bytes); }};
 }
 
 ExportFile template_file(const std::filesystem::path& name, std::string_view source) {
@@ -163,9 +167,7 @@ ExportFiles godot_files(const ExportedBake& bake) {
     files.push_back(copied_file(bake.files.baked_glb));
     const std::vector<std::string> maps = page_names(bake.files, "visibility", ".exr");
     files.push_back(text_file(bake.files.name + ".surimi.json", make_list(bake.files, {Axes::gltf, maps, "", ""})));
-    files.push_back(exr_file("surimi_lobe.exr", full_lobe_texture(), ExrDepth::full));
-    files.push_back(exr_file("surimi_lobe_schlick.exr", schlick_lobe_texture(), ExrDepth::full));
-    files.push_back(exr_file("surimi_albedo.exr", albedo_texture(), ExrDepth::full));
+    files.push_back(binary_file("surimi_lobes.bin", lobe_tables()));
     for (const char* name : {"surimi.gdshader", "surimi_lights.gdshaderinc", "surimi_apply.gd", "surimi_import.gd"})
         files.push_back(template_file(name, std::string("godot/") + name));
     files.push_back(text_file("README.md", readme(bake, "godot/README.md", maps)));

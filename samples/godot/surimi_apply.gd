@@ -11,11 +11,11 @@ static func apply(scene: Node, list_path: String) -> int:
 	var folder := list_path.get_base_dir()
 	var list: Dictionary = JSON.parse_string(FileAccess.get_file_as_string(list_path))
 	var lights := _lights_of(list, scene)
-	for key: String in ["surimi_lobe", "surimi_lobe_schlick", "surimi_albedo"]:
-		lights[key.replace("surimi_albedo", "lobe_albedo").replace("surimi_", "")] = _texture(folder, key + ".exr")
+	var lobes := FileAccess.get_file_as_bytes(folder.path_join("surimi_lobes.bin"))
+	lights["lobes"] = ImageTexture.create_from_image(Image.create_from_data(64, 192, false, Image.FORMAT_RGBAF, lobes))
 	var maps: Array[Texture2D] = []
 	for file: String in list["maps"]:
-		maps.append(_texture(folder, file))
+		maps.append(_texture(folder.path_join(file)))
 	var done := {}  # material and map -> ShaderMaterial: surfaces that shared one do so again
 	var count := 0
 	for mesh: MeshInstance3D in _meshes(scene):
@@ -107,13 +107,34 @@ static func _godot_name(entry: Dictionary) -> String:
 	return name.validate_node_name()
 
 
-# From the raw file, since the import of textures may compress what is used in 3D.
-static func _texture(folder: String, file: String) -> Texture2D:
-	var image := Image.load_from_file(folder.path_join(file))
+# From the raw file, since the import of textures may compress what is used in 3D. Only the editor reads EXR; a running
+# game takes the PNG beside it.
+static func _texture(path: String) -> Texture2D:
+	var file := path if Engine.is_editor_hint() else path.get_basename() + ".png"
+	var image := Image.load_from_file(file)
 	if image == null:
 		push_error("surimi: %s is not beside the list" % file)
 		return null
+	if file.ends_with(".png"):
+		image = _decoded(image)
 	return ImageTexture.create_from_image(image)
+
+
+# 8-bit sRGB as linear half floats, so that what is between texels is right in every renderer.
+static func _decoded(image: Image) -> Image:
+	var table := PackedFloat32Array()
+	for code in 256:
+		table.append(Color8(code, 0, 0).srgb_to_linear().r)
+	image.convert(Image.FORMAT_RGB8)
+	var codes := image.get_data()
+	var values := PackedFloat32Array()
+	values.resize(codes.size())
+	for i in codes.size():
+		values[i] = table[codes[i]]
+	var size := image.get_size()
+	var linear := Image.create_from_data(size.x, size.y, false, Image.FORMAT_RGBF, values.to_byte_array())
+	linear.convert(Image.FORMAT_RGBH)
+	return linear
 
 
 static func _material(source: BaseMaterial3D, folder: String) -> ShaderMaterial:
