@@ -2,8 +2,10 @@
 // The formulae of the shader for Godot, compiled from the very file that exports hand out, against the runtime's.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
+#include <span>
 
 #include "baker/export/lobe_tables.h"
 #include "runtime/ltc/placed_lobe.h"
@@ -20,10 +22,7 @@ using mat3 = glm::dmat3;
 using glm::abs, glm::atan, glm::clamp, glm::cross, glm::dot, glm::length, glm::max, glm::min, glm::normalize, glm::sqrt;
 #define float double
 #define out
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #include "samples/godot/surimi_lights.gdshaderinc"
-#pragma GCC diagnostic pop
 #undef out
 #undef float
 }  // namespace surimi::shader
