@@ -9,6 +9,7 @@ bash .ci/install.sh --tests
 for folder in tests/cli tests/web tests/report baker/report/page; do
     (cd "$folder" && npm ci --silent --no-audit --no-fund)
 done
+(cd tests/godot && npm ci --ignore-scripts --silent --no-audit --no-fund) # its script would download an editor
 if [[ -z ${SURIMI_SCENES:-} && -d ../shared/scenes ]]; then
     SURIMI_SCENES=$(cd ../shared/scenes && pwd)
 fi

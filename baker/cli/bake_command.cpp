@@ -10,6 +10,7 @@
 #include "baker/cli/density_summary.h"
 #include "baker/cli/evidence_summary.h"
 #include "baker/cli/existing_uv.h"
+#include "baker/cli/export_options.h"
 #include "baker/cli/fix_options.h"
 #include "baker/cli/options.h"
 #include "baker/cli/progress.h"
@@ -40,6 +41,7 @@ void print_summary(const Scene& scene, const Bake& bake) {
 struct BakeOptions {
     Given given;
     std::filesystem::path out = "out";
+    std::vector<std::string> exports;
     bool no_report = false;
 };
 
@@ -59,6 +61,7 @@ int bake_scene(const BakeOptions& options) {
     const Given& given = options.given;
     const std::filesystem::path& out = options.out;
     Config config = effective_config(given);
+    const std::vector<std::string> targets = parse_export_targets(options.exports, "--export");
     if (given.print_config) {
         fmt::print("{}", to_toml(config));
         return 0;
@@ -77,6 +80,7 @@ int bake_scene(const BakeOptions& options) {
     });
     const OutputPaths paths = write_bake(out, scene, result, settings_json(config));
     std::vector<std::filesystem::path> written = paths.all();
+    for (const auto& path : export_from(paths.manifest_json, targets, given.quiet)) written.push_back(path);
     add_report(options, config, paths, written);
     if (!given.quiet) print_summary(scene, result);
     if (given.json) {
@@ -98,6 +102,7 @@ Run add_bake_command(CLI::App& app) {
     add_unwrap_options(*command, options->given);
     add_gather_options(*command, options->given.gather.emplace());
     add_fix_options(*command, options->given.without);
+    add_export_option(*command, options->exports);
     command->add_flag("--no-report", options->no_report, "Write no NAME.report.html; --memory implies it");
     command->add_option("-o,--output", options->out, "Folder to write to [out]")->type_name("FOLDER");
     return [options] { return bake_scene(*options); };

@@ -25,5 +25,6 @@ Run add_doctor_command(CLI::App& app);
 Run add_completion_command(CLI::App& app);
 Run add_ratio_command(CLI::App& app);
 Run add_report_command(CLI::App& app);
+Run add_export_command(CLI::App& app);
 
 }  // namespace surimi

@@ -50,10 +50,11 @@ int run(int argc, char** argv) {
     app.footer(footer);
     app.require_subcommand(1);
     std::vector<std::pair<const CLI::App*, surimi::Run>> commands;
-    for (const auto add : {surimi::add_inspect_command, surimi::add_unwrap_command, surimi::add_bake_command,
-                           surimi::add_preview_command, surimi::add_compare_command, surimi::add_study_command,
-                           surimi::add_plan_command, surimi::add_ratio_command, surimi::add_report_command,
-                           surimi::add_validate_command, surimi::add_doctor_command, surimi::add_completion_command}) {
+    for (const auto add :
+         {surimi::add_inspect_command, surimi::add_unwrap_command, surimi::add_bake_command,
+          surimi::add_preview_command, surimi::add_compare_command, surimi::add_study_command, surimi::add_plan_command,
+          surimi::add_ratio_command, surimi::add_report_command, surimi::add_export_command,
+          surimi::add_validate_command, surimi::add_doctor_command, surimi::add_completion_command}) {
         const surimi::Run command = add(app);
         commands.emplace_back(app.get_subcommands({}).back(), command);
     }
