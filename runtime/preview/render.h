@@ -29,6 +29,7 @@ struct RenderSettings {
     int samples_per_side = 3;  ///< of a pixel: anti-aliasing by a grid of this many squared
     Show show = Show::lit;
     uint64_t seed = 0;  ///< of stochastic shading; the grid is always the same
+    bool operator==(const RenderSettings&) const = default;
 };
 
 struct Picture {
