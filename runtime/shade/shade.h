@@ -34,9 +34,9 @@ struct LightingSettings {
     VisibilitySource visibility = VisibilitySource::baked;
     ShadingModel model = ShadingModel::exact;
     Precision precision = Precision::mixed;
-    int picture_cells = 4;            ///< along each side of a panel that shows a picture
-    int samples = 16;                 ///< of each technique, point and monitor, where rays are traced
-    std::optional<double> roughness;  ///< of every surface, perceptual, in [0, 1]; empty: its own
+    int picture_cells = 4;                           ///< along each side of a panel that shows a picture
+    int samples = 16;                                ///< of each technique, point and monitor, where rays are traced
+    std::optional<double> roughness = std::nullopt;  ///< of every surface, perceptual, in [0, 1]; empty: its own
     bool operator==(const LightingSettings&) const = default;
 };
 

@@ -52,7 +52,7 @@ void explain(const char* text) {
 }
 
 void heading(const char* text) {
-    ImGui::Dummy({0, ImGui::GetStyle().ItemSpacing.y});
+    ImGui::Dummy({0, 0.5f * ImGui::GetStyle().ItemSpacing.y});
     ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_CheckMark));
     ImGui::TextUnformatted(text);
     ImGui::PopStyleColor();
@@ -144,11 +144,12 @@ void draw_light(bool has_map, LightingSettings& lighting) {
         explain("For each sample of a pixel and each monitor, of both techniques");
         lighting.samples = std::clamp(lighting.samples, 1, 65536);
     }
+    label("roughness");
     bool is_overridden = lighting.roughness.has_value();
-    if (ImGui::Checkbox("roughness", &is_overridden))
+    if (ImGui::Checkbox("##overridden", &is_overridden))
         lighting.roughness = is_overridden ? std::optional(0.3) : std::nullopt;
     explain("One roughness for every surface, in place of its own");
-    ImGui::SameLine(0.36f * ImGui::GetWindowContentRegionWidth());
+    ImGui::SameLine();
     ImGui::SetNextItemWidth(-1);
     auto roughness = static_cast<float>(lighting.roughness.value_or(0.3));
     if (ImGui::SliderFloat("##roughness", &roughness, 0, 1, is_overridden ? "%.2f" : "its own",
@@ -157,14 +158,15 @@ void draw_light(bool has_map, LightingSettings& lighting) {
 }
 
 void draw_exposure(const RenderStatus& status, Choices& choices) {
-    bool is_automatic = !choices.exposure;
     label("exposure");
+    const float button = 3.6f * ImGui::GetFontSize();
+    ImGui::SetNextItemWidth(-button - ImGui::GetStyle().ItemSpacing.x);
     auto stops = static_cast<float>(choices.exposure.value_or(std::log2(status.exposure)));
-    if (ImGui::SliderFloat("##exposure", &stops, -16, 10, is_automatic ? "%+.2f EV (auto)" : "%+.2f EV"))
+    if (ImGui::SliderFloat("##exposure", &stops, -16, 10, choices.exposure ? "%+.2f EV" : "%+.2f auto"))
         choices.exposure = static_cast<double>(stops);
     explain("Brightness of the picture, in stops; lit views only");
-    label("");
-    if (ImGui::Button("measure again", {-1, 0})) {
+    ImGui::SameLine();
+    if (ImGui::Button("meter", {-1, 0})) {
         choices.exposure.reset();
         ++choices.metering;
     }

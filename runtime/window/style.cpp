@@ -40,7 +40,8 @@ void set_colors(ImVec4* colors) {
     for (const int c : {ImGuiCol_FrameBgHovered, ImGuiCol_FrameBgActive, ImGuiCol_ButtonHovered, ImGuiCol_HeaderHovered,
                         ImGuiCol_ScrollbarGrabHovered})
         colors[c] = raised;
-    for (const int c : {ImGuiCol_CheckMark, ImGuiCol_SliderGrab}) colors[c] = accent;
+    colors[ImGuiCol_CheckMark] = accent;
+    colors[ImGuiCol_SliderGrab] = {accent.x, accent.y, accent.z, 0.55f};  // numbers are read through it
     for (const int c : {ImGuiCol_SliderGrabActive, ImGuiCol_ButtonActive, ImGuiCol_HeaderActive, ImGuiCol_PlotHistogram,
                         ImGuiCol_TextSelectedBg})
         colors[c] = strong;
@@ -55,8 +56,8 @@ void set_style(float scale) {
     ImGui::StyleColorsDark(&style);
     set_colors(style.Colors);
     style.WindowPadding = {12, 10};
-    style.FramePadding = {8, 4};
-    style.ItemSpacing = {8, 7};
+    style.FramePadding = {8, 3};
+    style.ItemSpacing = {8, 6};
     style.WindowRounding = 0;
     style.FrameRounding = style.GrabRounding = style.PopupRounding = 4;
     style.WindowBorderSize = 0;

@@ -19,7 +19,7 @@
 namespace surimi {
 namespace {
 
-constexpr float panel_points = 320, status_points = 38;
+constexpr float panel_points = 320, status_points = 36;
 constexpr double message_seconds = 4;
 constexpr int frames_to_settle = 3;  // that Dear ImGui takes until an event has had its whole effect
 
