@@ -46,7 +46,8 @@ Picture render(const Lighting& lighting, const View& view, const RenderSettings&
                const std::function<void(const Picture&, int pass, int passes)>& on_pass = {});
 
 /// A view inside the scene that shows much lit surface and a monitor: the best of a fixed set of candidates in front
-/// of the monitors, judged by tiny pictures. Deterministic.
+/// of the monitors, judged by tiny pictures, which are shaded by the closed forms and the map whatever the settings
+/// are. Deterministic.
 View frame_automatically(const Lighting& lighting, double aspect);
 
 }  // namespace surimi

@@ -162,7 +162,7 @@ void draw_exposure(const RenderStatus& status, Choices& choices) {
     const float button = 3.6f * ImGui::GetFontSize();
     ImGui::SetNextItemWidth(-button - ImGui::GetStyle().ItemSpacing.x);
     auto stops = static_cast<float>(choices.exposure.value_or(std::log2(status.exposure)));
-    if (ImGui::SliderFloat("##exposure", &stops, -16, 10, choices.exposure ? "%+.2f EV" : "%+.2f auto"))
+    if (ImGui::SliderFloat("##exposure", &stops, -16, 10, choices.exposure ? "%+.2f EV" : "%+.2f EV auto"))
         choices.exposure = static_cast<double>(stops);
     explain("Brightness of the picture, in stops; lit views only");
     ImGui::SameLine();
@@ -256,7 +256,12 @@ void draw_status(const Area& area, const RenderStatus& status, Show show, const 
     ImGui::AlignTextToFramePadding();
     const float share =
         status.passes_wanted > 0 ? static_cast<float>(status.passes) / static_cast<float>(status.passes_wanted) : 0;
-    ImGui::ProgressBar(share, {10 * ImGui::GetFontSize(), 0}, state_of(status).c_str());
+    ImGui::ProgressBar(share, {10 * ImGui::GetFontSize(), 0}, "");
+    const std::string state = state_of(status);
+    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax(),
+                 size = ImGui::CalcTextSize(state.c_str());
+    ImGui::GetWindowDrawList()->AddText({(low.x + high.x - size.x) / 2, (low.y + high.y - size.y) / 2},
+                                        ImGui::GetColorU32(ImGuiCol_Text), state.c_str());
     ImGui::SameLine();
     std::string text = fmt::format("{} samples a pixel", status.passes);
     if (status.seconds_per_pass > 0) text += fmt::format("  |  {:.0f} ms a pass", 1e3 * status.seconds_per_pass);

@@ -10,12 +10,18 @@
 namespace surimi {
 namespace {
 
-/// Pixels along a side of a work item: where rays are traced for light, a tile of the usual size takes a tenth of a
-/// second, which is long for the one who waits for it to stop.
+/// Pixels along a side of a work item: a tile of the usual size, or a smaller one where rays are traced for light. An
+/// item must take no more than some hundredths of a second, since a new wish waits for it.
 int item_size(const Lighting& lighting) {
     const bool is_traced = lighting.settings.model == ShadingModel::reference ||
                            lighting.settings.visibility == VisibilitySource::stochastic;
-    return is_traced ? tile_size / 4 : tile_size;
+    if (!is_traced) return tile_size;
+    constexpr double rays_of_item = 20000;
+    const double rays_of_pixel =
+        2.0 * lighting.settings.samples * static_cast<double>(std::max<size_t>(1, lighting.scene.monitors.size()));
+    int size = tile_size;
+    while (size > 1 && rays_of_pixel * size * size > rays_of_item) size /= 2;
+    return size;
 }
 
 /// Tiles from the middle of the picture outwards.

@@ -110,13 +110,13 @@ TEST(GrowingPicture, ShowsPartsOfAPassFromTheMiddleOutwards) {
 
 TEST(GrowingPicture, BeginsNoItemAfterItIsCancelledAndLosesNone) {
     const Room room;
-    const Lighting lighting = room.lighting();
+    const Lighting lighting = room.lighting({.visibility = VisibilitySource::stochastic, .samples = 32});
     const Picture batch = render(lighting, room.view, room.settings, {});
     GrowingPicture picture(lighting, room.view, room.settings, 1);
     std::atomic<int> asked{0};
     const std::vector<Tile> fresh = picture.advance(SIZE_MAX, [&] { return ++asked > 7; });
-    EXPECT_EQ(fresh.size(), 7u);  // one item for each question that was answered with no
-    EXPECT_EQ(picture.samples(), 7u * 64);
+    EXPECT_EQ(fresh.size(), 7u);            // one item for each question that was answered with no
+    EXPECT_EQ(picture.samples(), 7u * 64);  // 128 rays a pixel: items of eight pixels squared
     EXPECT_EQ(picture.passes(), 0);
     EXPECT_TRUE(picture.advance(SIZE_MAX, [] { return true; }).empty());
     while (!picture.is_done()) picture.advance(SIZE_MAX);
