@@ -5,16 +5,10 @@
 
 namespace surimi {
 
-bool has_window() {
-    return false;
-}
-
 void open_window(Lighting, const Choices&, const WindowSettings&) {
-    throw Error(
-        ErrorKind::usage,
-        "this build of surimi has no window: " SURIMI_WINDOW_MISSING
-        " not found when it was configured; install libimgui-dev, libglfw3-dev and libgl-dev (Debian), configure "
-        "and build again; or write a file with -o");
+    throw Error(ErrorKind::usage, "this build of surimi has no window (" SURIMI_WINDOW_MISSING
+                                  "); install libimgui-dev, libglfw3-dev and libgl-dev (Debian), configure and build "
+                                  "again; or write a file with -o");
 }
 
 }  // namespace surimi

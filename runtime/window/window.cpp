@@ -221,10 +221,6 @@ void wait_for_news(int& frames_left) {
 
 }  // namespace
 
-bool has_window() {
-    return true;
-}
-
 void open_window(Lighting lighting, const Choices& choices, const WindowSettings& settings) {
     const Shell shell(settings);
     Session session{settings, {lighting.rays, !lighting.pages.empty()}, choices, {}, 0, false, {}, 0, {}};

@@ -28,9 +28,6 @@ struct WindowSettings {
     int most_frames = 0;  ///< of the window, before the screenshot is taken of an unfinished picture; 0: any number
 };
 
-/// Is the window part of this build?
-bool has_window();
-
 /// Opens the window, and returns when the user closes it. Throws Error(usage) where no window can be opened: the
 /// build has none (Dear ImGui, GLFW or OpenGL were missing), there is no screen, or it has no OpenGL 3.
 void open_window(Lighting lighting, const Choices& choices, const WindowSettings& settings);
