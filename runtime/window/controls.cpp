@@ -277,7 +277,10 @@ void draw_help(const Area& area) {
     const float space = ImGui::GetFontSize();
     ImGui::SetNextWindowPos({area.x + space, area.y + space});
     ImGui::SetNextWindowBgAlpha(0.9f);
-    ImGui::Begin("help", nullptr, fixed | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);
+    // What is never brought to the front is made behind the picture.
+    ImGui::Begin("help", nullptr,
+                 (fixed & ~ImGuiWindowFlags_NoBringToFrontOnFocus) | ImGuiWindowFlags_AlwaysAutoResize |
+                     ImGuiWindowFlags_NoInputs);
     for (const auto& [keys, what] : std::array<std::pair<const char*, const char*>, 13>{{
              {"drag, arrow keys", "orbit"},
              {"right drag", "look around"},
