@@ -5,9 +5,10 @@ set -euo pipefail
 packages=(g++ cmake ninja-build
     libembree-dev libopenmesh-dev libopenexr-dev libopenimageio-dev openimageio-tools libglm-dev libtinygltf-dev
     nlohmann-json3-dev libtbb-dev libcli11-dev libtomlplusplus-dev libfmt-dev libdraco-dev libmeshoptimizer-dev libhwy-dev libeigen3-dev libnanoflann-dev
-    zlib1g-dev help2man)
+    zlib1g-dev help2man
+    libimgui-dev libglfw3-dev libgl-dev) # the last three for preview --window; without them the program is built without it
 if [[ ${1:-} == --tests ]]; then
-    packages+=(libgtest-dev libbenchmark-dev clang-format clang dpkg-dev file chromium)
+    packages+=(libgtest-dev libbenchmark-dev clang-format clang dpkg-dev file chromium xvfb xauth xdotool libgl1-mesa-dri)
     # gltf-validator runs on Node.js, of any source.
     command -v node >/dev/null && command -v npm >/dev/null || packages+=(nodejs npm)
 fi

@@ -9,6 +9,7 @@ install(TARGETS surimi_runtime EXPORT surimi ARCHIVE COMPONENT development)
 # Without the headers that only our own sources include: they show tinygltf and Highway to who sees them.
 install(DIRECTORY runtime DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/surimi COMPONENT development FILES_MATCHING PATTERN "*.h"
   PATTERN fit EXCLUDE
+  PATTERN window EXCLUDE # a program's, not the library's
   REGEX "/scene/(gltf_[a-z]+|accessor|compressed)\\.h$" EXCLUDE
   REGEX "-inl\\.h$" EXCLUDE)
 

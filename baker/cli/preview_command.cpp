@@ -11,8 +11,10 @@
 #include "baker/cli/light_options.h"
 #include "baker/cli/numbers.h"
 #include "baker/cli/options.h"
+#include "baker/cli/picture_file.h"
 #include "baker/cli/preview_report.h"
 #include "baker/cli/progress.h"
+#include "baker/cli/window_options.h"
 #include "baker/write/file.h"
 #include "runtime/base/error.h"
 #include "runtime/image/image_file.h"
@@ -63,6 +65,8 @@ struct PreviewOptions {
     bool progressive = false;
     bool compare = false;
     bool explain = false;
+    std::optional<double> roughness;
+    WindowOptions window;
 };
 
 /// The material that carries a map; none: an unbaked scene.
@@ -137,18 +141,6 @@ View choose_view(const Lighting& lighting, const PreviewOptions& options) {
     return view;
 }
 
-void write_picture(const std::filesystem::path& path, const Image<Vec3f>& pixels, Show show, double exposure) {
-    if (path.extension() == ".exr") {
-        Channels channels{pixels.width, pixels.height, {"R", "G", "B"}, {}};
-        for (const Vec3f& p : pixels.pixels) channels.values.insert(channels.values.end(), {p.x, p.y, p.z});
-        PendingFiles pending;
-        write_exr(pending.add(path), channels, ExrDepth::full);
-        pending.commit();
-    } else {
-        write_file(path, encode_png(to_codes(displayed(pixels, show, exposure))));
-    }
-}
-
 double exposure_of(const PreviewOptions& options, const Picture& picture) {
     return options.exposure ? std::exp2(*options.exposure) : automatic_exposure(picture);
 }
@@ -156,6 +148,7 @@ double exposure_of(const PreviewOptions& options, const Picture& picture) {
 LightingSettings lighting_settings(const PreviewOptions& options) {
     LightingSettings settings;
     settings.samples = options.light_samples;
+    settings.roughness = options.roughness;
     if (options.visibility == "none") settings.visibility = VisibilitySource::none;
     if (options.visibility == "stochastic") settings.visibility = VisibilitySource::stochastic;
     if (options.model == "kanikama") settings.model = ShadingModel::kanikama;
@@ -220,21 +213,48 @@ void report(const PreviewOptions& options, const View& view, const Picture& pict
     fmt::print("{}\n", options.out.string());
 }
 
+/// Throws Error(usage) for options that do not go together.
+void check(const PreviewOptions& options) {
+    check(options.window);
+    const auto refuse = [](const std::string& what) { throw Error(ErrorKind::usage, what); };
+    if (options.camera.size() == 2) refuse("--camera takes a name or three numbers");
+    const std::string extension = options.out.extension().string();
+    if (options.out.empty() && !options.window.is_wanted) refuse("preview needs -o FILE, or --window");
+    if (!options.out.empty() && extension != ".png" && extension != ".exr")
+        refuse(options.out.string() + ": the picture must be a .png or .exr");
+    if (options.compare && options.show != "lit") refuse("--compare is for --show lit");
+    if (options.window.is_wanted && (options.compare || options.explain || options.progressive))
+        refuse("--compare, --explain and --progressive are for a file, not for --window");
+}
+
+void show_in_window(Lighting lighting, const View& view, const PreviewOptions& options) {
+    Choices choices = choices_for(lighting, view);
+    choices.show = shows.at(options.show);
+    choices.samples_per_side = options.samples;
+    choices.exposure = options.exposure;
+    WindowSettings settings;
+    settings.width = options.size[0];
+    settings.height = options.size[1];
+    show_window(std::move(lighting), choices, settings, options.out, options.window);
+}
+
 int preview(const PreviewOptions& options) {
+    check(options);
     const Config config = effective_config(options.given);
     set_thread_count(config.threads);
-    if (options.out.extension() != ".png" && options.out.extension() != ".exr")
-        throw Error(ErrorKind::usage, options.out.string() + ": the picture must be a .png or .exr");
-    if (options.compare && options.show != "lit") throw Error(ErrorKind::usage, "--compare is for --show lit");
     Scene scene = read_gltf(options.given.scene);
     apply_roles(scene, config.roles);
     find_monitors(scene, monitor_request(scene, config));
     if (!options.given.quiet) print_notes(scene);
     const std::vector<VisibilityMap> pages = load_pages(scene, options);
     const RayScene rays(scene, Attach::everything);
-    const Lighting lighting(scene, pages, rays, chosen_lights(scene, options.lights, options.pictures),
-                            lighting_settings(options));
+    Lighting lighting(scene, pages, rays, chosen_lights(scene, options.lights, options.pictures),
+                      lighting_settings(options));
     const View view = choose_view(lighting, options);
+    if (options.window.is_wanted) {
+        show_in_window(std::move(lighting), view, options);
+        return 0;
+    }
     RenderSettings settings;
     settings.width = options.size[0];
     settings.height = options.size[1];
@@ -275,6 +295,9 @@ void add_light_options(CLI::App& command, PreviewOptions& options) {
                     "Rays of each sample of a pixel to each monitor, where light is sampled, 1 to 65536 [16]")
         ->type_name("N")
         ->check(CLI::Range(1, 65536));
+    command.add_option("--roughness", options.roughness, "Of every surface, 0 to 1, in place of its own")
+        ->type_name("R")
+        ->check(CLI::Range(0.0, 1.0));
     command.add_flag("--progressive", options.progressive, "Write the picture after passes 1, 2, 4, ... as well");
     command.add_flag("--explain", options.explain, "Say what the scene calls for, what was computed and what not");
     command.add_flag("--compare", options.compare,
@@ -292,8 +315,9 @@ Run add_preview_command(CLI::App& app) {
     const auto options = std::make_shared<PreviewOptions>();
     CLI::App* command = app.add_subcommand("preview", "A picture of a baked scene, lit by its monitors");
     add_scene_options(*command, options->given);
-    command->add_option("-o,--output", options->out, "Picture to write: .png (filmic, sRGB) or .exr (linear)")
-        ->required()
+    command
+        ->add_option("-o,--output", options->out,
+                     "Picture to write: .png (filmic, sRGB) or .exr (linear); with --window, what its buttons save")
         ->type_name("FILE");
     command
         ->add_option("--map", options->maps,
@@ -323,10 +347,8 @@ Run add_preview_command(CLI::App& app) {
         ->type_name("WHAT")
         ->check(CLI::IsMember(names_of(shows)));
     add_light_options(*command, *options);
-    return [options] {
-        if (options->camera.size() == 2) throw Error(ErrorKind::usage, "--camera takes a name or three numbers");
-        return preview(*options);
-    };
+    add_window_options(*command, options->window);
+    return [options] { return preview(*options); };
 }
 
 }  // namespace surimi

@@ -14,6 +14,11 @@ struct LitMonitor {
     std::optional<MonitorPicture> picture;
 };
 
+/// Does it shine at all?
+inline bool is_lit(const LitMonitor& light) {
+    return light.radiance != Vec3(0);
+}
+
 /// Radiance that leaves a place on a panel.
 inline Vec3 radiance_at(const LitMonitor& light, size_t panel, const Vec3& position) {
     return light.picture ? light.radiance * picture_at(*light.picture, panel, position) : light.radiance;

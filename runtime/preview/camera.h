@@ -15,6 +15,7 @@ struct View {
     Vec3 right{1, 0, 0};
     Vec3 up{0, 1, 0};
     double yfov = 0.9;  ///< radians, of the picture's height
+    bool operator==(const View&) const = default;
 };
 
 /// The view from `eye` towards `target`, +y up (or +z where that is the direction itself).

@@ -83,9 +83,11 @@ View frame_automatically(const Lighting& lighting, double aspect) {
     }
     // What is nearer than a tenth of the room hides it; a ground plane that dwarfs the room must not set that scale.
     const double near_distance = std::min(0.1 * glm::length(box.high - box.low), size);
+    // The same view however it is shaded then; and by brute force hundreds of pictures would take minutes.
+    const Lighting quick(scene, lighting.pages, lighting.rays, lighting.lights, {});
     std::vector<double> scores(candidates.size());
     parallel_for(candidates.size(), 1,
-                 [&](size_t i) { scores[i] = score(lighting, candidates[i], aspect, near_distance); });
+                 [&](size_t i) { scores[i] = score(quick, candidates[i], aspect, near_distance); });
     return candidates[static_cast<size_t>(std::max_element(scores.begin(), scores.end()) - scores.begin())];
 }
 

@@ -29,6 +29,7 @@ struct RenderSettings {
     int samples_per_side = 3;  ///< of a pixel: anti-aliasing by a grid of this many squared
     Show show = Show::lit;
     uint64_t seed = 0;  ///< of stochastic shading; the grid is always the same
+    bool operator==(const RenderSettings&) const = default;
 };
 
 struct Picture {
@@ -45,7 +46,8 @@ Picture render(const Lighting& lighting, const View& view, const RenderSettings&
                const std::function<void(const Picture&, int pass, int passes)>& on_pass = {});
 
 /// A view inside the scene that shows much lit surface and a monitor: the best of a fixed set of candidates in front
-/// of the monitors, judged by tiny pictures. Deterministic.
+/// of the monitors, judged by tiny pictures, which are shaded by the closed forms and the map whatever the settings
+/// are. Deterministic.
 View frame_automatically(const Lighting& lighting, double aspect);
 
 }  // namespace surimi

@@ -54,6 +54,7 @@ Seen see(const Lighting& lighting, const Vec3& eye, const Vec3& direction, Show 
             const Vec3 emitted = glow(lighting, at, hit->is_front, show);
             SeenPoint point{shading_point(scene, at, view), through * opacity, pixel};
             point.point.key = hash(key, static_cast<uint64_t>(layer));
+            point.point.roughness = lighting.settings.roughness.value_or(point.point.roughness);
             seen.color += through * emitted;
             if (!is_lit_view(show)) seen.color += point.weight * view_color(lighting, point.point, show);
             if (opacity > 0.5 && through > 0.5) {

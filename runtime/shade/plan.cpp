@@ -12,7 +12,7 @@ ShadingPlan plan_shading(const Scene& scene, const std::vector<LitMonitor>& ligh
     ShadingPlan plan;
     for (size_t m = 0; m < scene.monitors.size(); ++m) {
         MonitorPlan monitor;
-        monitor.is_lit = lights[m].radiance != Vec3(0);
+        monitor.is_lit = is_lit(lights[m]);
         monitor.has_picture = lights[m].picture.has_value();
         float darkest = 1;
         size_t dark = 0;

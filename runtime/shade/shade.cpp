@@ -230,6 +230,11 @@ Lighting::Lighting(const Scene& scene_, const std::vector<VisibilityMap>& pages_
     }
 }
 
+void set_radiance(Lighting& lighting, size_t monitor, const Vec3& radiance) {
+    lighting.lights[monitor].radiance = radiance;
+    lighting.plan.monitors[monitor].is_lit = is_lit(lighting.lights[monitor]);
+}
+
 void shade(const Lighting& lighting, std::span<const ShadingPoint> points, std::span<Parts> reflected,
            std::span<MonitorCounts> counts) {
     assert(points.size() == reflected.size() && counts.size() == lighting.scene.monitors.size());

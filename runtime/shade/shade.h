@@ -2,6 +2,7 @@
 // The light of monitors on points: analytic diffuse and specular, times visibility.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "runtime/batch/batch.h"
@@ -33,8 +34,10 @@ struct LightingSettings {
     VisibilitySource visibility = VisibilitySource::baked;
     ShadingModel model = ShadingModel::exact;
     Precision precision = Precision::mixed;
-    int picture_cells = 4;  ///< along each side of a panel that shows a picture
-    int samples = 16;       ///< of each technique, point and monitor, where rays are traced
+    int picture_cells = 4;                           ///< along each side of a panel that shows a picture
+    int samples = 16;                                ///< of each technique, point and monitor, where rays are traced
+    std::optional<double> roughness = std::nullopt;  ///< of every surface, perceptual, in [0, 1]; empty: its own
+    bool operator==(const LightingSettings&) const = default;
 };
 
 /// A scene with its lights as they shine now. Refers to its parts; they must outlive it.
@@ -51,6 +54,9 @@ struct Lighting {
     std::vector<MonitorSampler> samplers;
     std::vector<std::vector<LightPiece>> pieces;  ///< of each monitor: cells where it shows a picture, else panels
 };
+
+/// Gives a monitor another radiance (linear, nits), which costs nothing; its picture stays.
+void set_radiance(Lighting& lighting, size_t monitor, const Vec3& radiance);
 
 /// Radiance, in nits, that points reflect to the eye of all monitors. `reflected` has the points' length and is
 /// written; `counts`, one for each monitor, is added to. Unlit points get their colour as diffuse.

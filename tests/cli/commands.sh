@@ -353,6 +353,17 @@ done
 expect 0 '"referenceNoise"' "$surimi" preview "$baked" -o "$work/compared.png" --compare --json --reference-samples 2 --size 32 18 --samples 1
 expect 2 "--compare is for" "$surimi" preview "$baked" -o "$work/x.png" --compare --show diffuse
 
+# Exports, of a bake's files and with a bake
+expect 2 'did you mean godot?' "$surimi" export "$work/out" goddot
+expect 2 'did you mean kanikama?' "$surimi" bake "$theater" --export kanikma -o "$work/never"
+check test ! -e "$work/never"
+expect 3 "" "$surimi" export "$work/nowhere" three
+expect 0 "export/kanikama/README.md" "$surimi" export "$work/out" kanikama three
+check oiiotool "$work/out/home-theater.visibility.exr" "$work/out/export/kanikama/home-theater.visibility.exr" --diff
+expect 0 "export/godot/surimi.gdshader" "$surimi" bake "$theater" --size 128 --quality draft --quiet --export godot,ltcgi -o "$work/exported"
+check test -z "$(find "$work/exported" -name '*tmp*')"
+check test -s "$work/exported/home-theater.report.html"
+
 # Help: the options of every day on one screen of 100 columns, all of them on demand
 check test "$("$surimi" bake --help | wc -l)" -le 45
 check test "$(COLUMNS=100 "$surimi" bake --help-all | wc -L)" -le 100

@@ -38,7 +38,7 @@ endforeach()
 set(owners
   "embree3/=runtime/trace/" "hwy/=runtime/batch/,baker/gather/" "OpenImageIO/=runtime/image/" "OpenMesh/=baker/unwrap/" "Eigen/=baker/unwrap/,baker/post/" "CLI/=baker/cli/"
   "toml++/=baker/cli/" "tbb/=runtime/base/" "draco/=runtime/scene/" "meshoptimizer=runtime/scene/"
-  "tiny_gltf=runtime/scene/,baker/write/")
+  "imgui=runtime/window/" "backends/imgui=runtime/window/" "GLFW/=runtime/window/" "tiny_gltf=runtime/scene/,baker/write/")
 file(GLOB_RECURSE all ${root}/runtime/*.h ${root}/runtime/*.cpp ${root}/baker/*.h ${root}/baker/*.cpp)
 foreach(source ${all})
   file(STRINGS ${source} lines REGEX "^#include <")
