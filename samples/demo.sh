@@ -23,7 +23,7 @@ for show in lit unshadowed shadowed visibility texels; do
 done
 cat <<TEXT
 
-Open these pictures:
+Open $out/$scene.report.html in a browser: the room, live, the map, how well it is and what it took. And these pictures:
   $out/$scene.lit.png             the room, lit by its monitors through the baked map
   $out/$scene.visibility.png      the map itself: R, G, B are the monitors
   $out/$scene.unshadowed.png      the light without shadows
