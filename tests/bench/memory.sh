@@ -18,7 +18,7 @@ for run in "$@"; do
     # shellcheck disable=SC2206 # several options
     settings=(--size "$size" --atlases "$atlases" --method mc --samples 1 $options)
     "$surimi" plan "$file" "${settings[@]}" --json --quiet >"$work/plan.json"
-    /usr/bin/time -f "%M %e" -o "$work/time" "$surimi" bake "$file" "${settings[@]}" -o "$work/out" --quiet >/dev/null
+    /usr/bin/time -f "%M %e" -o "$work/time" "$surimi" bake "$file" "${settings[@]}" -o "$work/out" --quiet --no-report >/dev/null
     rm -rf "$work/out"
     node - "$work" "$scene" "$size" "$options" <<'JS'
 const fs = require("fs"), [work, scene, size, options] = process.argv.slice(2);

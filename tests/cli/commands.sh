@@ -280,7 +280,7 @@ expect 0 "Recommended: surimi bake home-theater.glb --error" "$surimi" study "$t
 for name in svg csv md; do
     check test -s "$work/study/home-theater.study.$name"
 done
-check test "$(find "$work/study" -type f | wc -l)" == 3
+check test "$(find "$work/study" -type f | wc -l)" == 4
 "$surimi" study "$theater" --size 128 --texels 8 --reference 256 --seed 3 --json --quiet -o "$work/study" >"$work/study.json"
 check node -e 'process.exit(JSON.parse(require("fs").readFileSync(process.argv[1])).techniques.length === 12 ? 0 : 1)' "$work/study.json"
 expect 2 "texels must be" "$surimi" study "$theater" --texels 0
