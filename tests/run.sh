@@ -6,10 +6,9 @@ cd "$(dirname "$0")/.."
 shopt -s nullglob
 
 bash .ci/install.sh --tests
-for folder in tests/cli tests/web tests/report baker/report/page; do
+for folder in tests/cli tests/web tests/report tests/godot baker/report/page; do
     (cd "$folder" && npm ci --silent --no-audit --no-fund)
 done
-(cd tests/godot && npm ci --ignore-scripts --silent --no-audit --no-fund) # its script would download an editor
 if [[ -z ${SURIMI_SCENES:-} && -d ../shared/scenes ]]; then
     SURIMI_SCENES=$(cd ../shared/scenes && pwd)
 fi

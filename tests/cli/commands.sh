@@ -275,9 +275,9 @@ expect 0 "new charts are made" "$surimi" unwrap "$work/uv.glb" --uv auto --size 
 expect 0 '"reason": "TEXCOORD_1' "$surimi" unwrap "$theater" --uv auto --size 128 -o "$work/auto.glb" --json
 expect 0 "less than the gutter of 8" "$surimi" unwrap "$work/uv.glb" --uv existing --size 256 --gutter 8 -o "$work/existing.glb"
 
-# What accuracy costs: three files and words, or numbers
+# What accuracy costs: four files and words, or numbers
 expect 0 "Recommended: surimi bake home-theater.glb --error" "$surimi" study "$theater" --size 128 --texels 8 --reference 256 -o "$work/study" --quiet
-for name in svg csv md; do
+for name in svg csv json md; do
     check test -s "$work/study/home-theater.study.$name"
 done
 check test "$(find "$work/study" -type f | wc -l)" == 4
