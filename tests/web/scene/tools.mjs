@@ -12,6 +12,9 @@ const runs = {
   optimize: ['gltf-transform', (from, to) =>
     ['optimize', from, to, '--texture-compress', 'false', '--compress', 'false', '--join', 'false', '--prune-attributes', 'false',
       '--simplify', 'false', '--palette', 'false']],
+  prune: ['gltf-transform', (from, to) => // then some materials read the map by TEXCOORD_0, others by TEXCOORD_1
+    ['optimize', from, to, '--texture-compress', 'false', '--compress', 'false', '--join', 'false', '--simplify', 'false',
+      '--palette', 'false']],
   gltfpack: ['gltfpack', (from, to) => ['-kn', '-km', '-ke', '-vtf', '-noq', '-i', from, '-o', to]],
 };
 

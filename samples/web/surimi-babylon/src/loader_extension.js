@@ -58,11 +58,15 @@ export class SurimiExtension {
     for (const { monitor, channel } of findMonitors(gltf, root.getScene(), names)) {
       bake.monitors.push(monitor);
       for (const light of monitor.lights) bake.setChannel(light, channel);
-      for (const material of monitor.materials) bake.addModulation(new VisibilityPlugin(material, bake, null, monitor), null);
+      for (const material of monitor.materials) {
+        const use = { texture: null, placement: null, own: monitor };
+        bake.addModulation(new VisibilityPlugin(material, bake, use), null);
+      }
     }
     for (const { material, note, texture } of this.receivers) {
       const page = bake.addPage(note.page ?? 0, texture);
-      bake.addModulation(new VisibilityPlugin(material, bake, page.texture, null), page);
+      const use = { texture: page.texture, placement: texture, own: null };
+      bake.addModulation(new VisibilityPlugin(material, bake, use), page);
     }
     if (bake.monitors.length > 0) bakes.set(root, bake);
   }

@@ -27,11 +27,15 @@ function checkShader() {
 }
 
 export class VisibilityPlugin extends MaterialPluginBase {
-  /** texture null: nothing but the monitor `own` is masked. */
-  constructor(material, bake, texture, own) {
+  /**
+   * `placement` is the texture as the file puts it on this very material: which UVs read it, and how they are
+   * transformed. texture null: nothing but the monitor `own` is masked.
+   */
+  constructor(material, bake, { texture, placement, own }) {
     super(material, 'SurimiVisibility', 200, { SURIMI_VISIBILITY: false, SURIMI_ENCODED: false });
     this.bake = bake;
     this.texture = texture;
+    this.placement = placement;
     this.own = own;
     this.isOn = true;
     this.registerForExtraEvents = true; // masks are of the mesh, not of the material
@@ -62,7 +66,7 @@ export class VisibilityPlugin extends MaterialPluginBase {
     defines.SURIMI_ENCODED = this.texture?.gammaSpace ?? false;
     if (!this.isOn || this.texture === null) return;
     defines._needUVs = true;
-    defines[`MAINUV${this.texture.coordinatesIndex + 1}`] = true;
+    defines[`MAINUV${this.placement.coordinatesIndex + 1}`] = true;
   }
 
   isReadyForSubMesh() {
@@ -97,7 +101,7 @@ export class VisibilityPlugin extends MaterialPluginBase {
       uniforms.updateFloat4(mask, ...(isArea ? this.bake.maskOf(lights[i], this.own) : unshadowed));
     });
     if (this.texture === null) return;
-    uniforms.updateMatrix('visibilityMatrix', this.texture.getTextureMatrix());
+    uniforms.updateMatrix('visibilityMatrix', this.placement.getTextureMatrix());
     uniforms.setTexture('visibilitySampler', this.texture);
   }
 
@@ -105,7 +109,7 @@ export class VisibilityPlugin extends MaterialPluginBase {
     if (shaderType !== 'fragment') return null;
     checkShader();
     const hasMap = this.texture !== null;
-    const coordinates = `visibilityMatrix*vec4(vMainUV${(this.texture?.coordinatesIndex ?? 0) + 1},1.0,0.0)`;
+    const coordinates = `visibilityMatrix*vec4(vMainUV${(this.placement?.coordinatesIndex ?? 0) + 1},1.0,0.0)`;
     const fetched = `vec3 surimiCode=texture2D(visibilitySampler,vec2(${coordinates})).rgb;`;
     const decoded = '#ifdef SURIMI_ENCODED\nsurimiCode=toLinearSpace(surimiCode);\n#endif';
     const read = `${fetched}\n${decoded}\nvec4 surimiVisibility=vec4(surimiCode,1.0);`;

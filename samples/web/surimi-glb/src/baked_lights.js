@@ -63,7 +63,7 @@ export class BakedLights {
     page?.modulations.push(modulation);
   }
 
-  /** For readers: the page with this number; the first material's texture is that of all, whatever copies there are. */
+  /** For readers: the page with this number; the first material's texture is read by all, each by its own UVs. */
   addPage(number, texture) {
     if (this.pageOf(number) === undefined) this.pages.push({ number, texture, modulations: [] });
     return this.pageOf(number);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // WebGPURenderer: RectAreaLights that ask the material whose surface they light for its map.
 import { RectAreaLightNode, Vector4 } from 'three/webgpu';
-import { dot, texture as textureNode, uniform, uv, vec4 } from 'three/tsl';
+import { dot, texture as textureNode, uniform, uv, vec3, vec4 } from 'three/tsl';
 
 /** As three's own, but for materials that a bake has to do with. */
 export class VisibilityRectAreaLightNode extends RectAreaLightNode {
@@ -19,10 +19,15 @@ export class VisibilityRectAreaLightNode extends RectAreaLightNode {
 
 let modulationCount = 0;
 
+/** Where a texture is read by the material that it belongs to. */
+function coordinatesOf(placement) {
+  if (placement.matrixAutoUpdate) placement.updateMatrix();
+  return uniform(placement.matrix).mul(vec3(uv(placement.channel), 1)).xy;
+}
+
 /** See readBake. Nodes hold the texture, since three looks for changes of a material's nodes, not of other properties. */
-export function modulateForNodes(material, bake, texture, own) {
-  const mapNode = texture === null ? null : textureNode(texture, uv(texture.channel));
-  if (mapNode !== null) mapNode.updateMatrix = true;
+export function modulateForNodes(material, bake, { texture, placement, own }) {
+  const mapNode = texture === null ? null : textureNode(texture, coordinatesOf(placement));
   const map = mapNode === null ? vec4(0, 0, 0, 1) : vec4(mapNode.rgb, 1);
   const masks = new WeakMap();
   const maskNodeOf = (light) => {

@@ -8,7 +8,8 @@ const vertexParts = ['#include <common>', '#include <uv_vertex>'];
 const fragmentParts = ['#include <lights_pars_begin>', '#include <lights_fragment_begin>'];
 
 /** See readBake. The material's own onBeforeCompile and onBeforeRender stay in force. */
-export function modulateForWebGL(material, bake, texture, own) {
+export function modulateForWebGL(material, bake, { texture, placement, own }) {
+  const set = placement?.channel ?? null;
   const uniforms = {
     visibilityMap: { value: texture },
     visibilityTransform: { value: new Matrix3() },
@@ -18,7 +19,6 @@ export function modulateForWebGL(material, bake, texture, own) {
   material.onBeforeCompile = (shader, renderer) => {
     onBeforeCompile.call(material, shader, renderer);
     Object.assign(shader.uniforms, uniforms);
-    const set = uniforms.visibilityMap.value?.channel ?? null;
     shader.vertexShader = set === null ? shader.vertexShader : passCoordinates(shader.vertexShader, set);
     shader.fragmentShader = dimLights(shader.fragmentShader, set !== null);
   };
@@ -26,13 +26,12 @@ export function modulateForWebGL(material, bake, texture, own) {
     onBeforeRender.call(material, renderer, scene, camera, geometry, object, group);
     const lights = lightsInOrder(renderer, scene.children.length > 0 ? scene : topOf(object), camera);
     uniforms.visibilityMask.value = lights.flatMap((light) => bake.maskOf(light, own));
-    const map = uniforms.visibilityMap.value;
-    if (map === null) return;
-    if (map.matrixAutoUpdate) map.updateMatrix();
-    uniforms.visibilityTransform.value.copy(map.matrix);
+    if (placement === null) return;
+    if (placement.matrixAutoUpdate) placement.updateMatrix();
+    uniforms.visibilityTransform.value.copy(placement.matrix);
   };
   material.customProgramCacheKey = () =>
-    `${customProgramCacheKey.call(material)} surimi ${uniforms.visibilityMap.value?.channel ?? 'own'}`;
+    `${customProgramCacheKey.call(material)} surimi ${set ?? 'own'}`;
   material.needsUpdate = true;
   return {
     setTexture(next) {

@@ -6,8 +6,9 @@ import { takeMap } from './carrier.js';
 import { findMonitors } from './find_monitors.js';
 
 /**
- * `modulate(material, bake, texture, own)` makes a material dim its lights and returns { setTexture, dispose }; texture
- * null: nothing but the monitor `own` is masked.
+ * `modulate(material, bake, { texture, placement, own })` makes a material dim its lights and returns { setTexture,
+ * dispose }. `placement` is the texture as the file puts it on this very material: which UVs read it, and how they are
+ * transformed. texture null: nothing but the monitor `own` is masked.
  */
 export async function readBake(gltf, parser, modulate) {
   const bake = new Bake();
@@ -17,7 +18,7 @@ export async function readBake(gltf, parser, modulate) {
   for (const { monitor, channel } of findMonitors(gltf.scenes, parser, names)) {
     bake.monitors.push(monitor);
     for (const light of monitor.lights) bake.setChannel(light, channel);
-    for (const material of monitor.materials) bake.addModulation(modulate(material, bake, null, monitor), null);
+    for (const material of monitor.materials) bake.addModulation(modulate(material, bake, { texture: null, placement: null, own: monitor }), null);
   }
   for (const [material, note] of receivers) {
     const texture = await takeMap(material, note, parser);
@@ -26,7 +27,8 @@ export async function readBake(gltf, parser, modulate) {
       continue;
     }
     const page = bake.addPage(note.page ?? 0, texture);
-    bake.addModulation(modulate(material, bake, page.texture, null), page);
+    const use = { texture: page.texture, placement: texture, own: null };
+    bake.addModulation(modulate(material, bake, use), page);
   }
   return bake;
 }
