@@ -245,8 +245,8 @@ MapReference add_map(GltfEdit& edit, const std::string& name, const MaterialNeed
                      const std::vector<int>& free_textures) {
     MapReference reference;
     reference.channels = Json::array();
-    for (const std::string& monitor : map.channels)
-        reference.channels.push_back(monitor.empty() ? Json() : Json(monitor));
+    // Unused ones are empty, not null: Blender turns a list that holds null into a text, and the map is lost.
+    for (const std::string& monitor : map.channels) reference.channels.push_back(monitor);
     for (size_t p = 0; p < map.pngs.size(); ++p) {
         const std::string page_name = map.pngs.size() > 1 ? name + "." + std::to_string(p) : name;
         PageReference& page = reference.pages.emplace_back();

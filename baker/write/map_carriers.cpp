@@ -73,7 +73,9 @@ void take_off_map(Json& material, std::set<int>& textures) {
     const Json note = std::move(material["extras"][mark]);
     material["extras"].erase(mark);
     if (material["extras"].empty()) material.erase("extras");
-    if (!note.is_object() || !note.contains("channels")) return;  // the page alone was marked
+    // Blender made a text of the marks of version 0.1.0 that had unused channels; else the page alone was marked.
+    const bool had_map = note.is_string() || (note.is_object() && note.contains("channels"));
+    if (!had_map) return;
     const auto take_off = [&](const char* extension, const char* texture, bool is_off) {
         if (!is_off) return;
         textures.insert(index_of(material["extensions"][extension].value(texture, Json::object()), "index", INT32_MAX));

@@ -30,7 +30,7 @@ struct PageReference {
 };
 
 struct MapReference {
-    Json channels;  ///< three names, or null where unused
+    Json channels;  ///< three names, empty where unused
     std::vector<PageReference> pages;
 };
 

@@ -54,7 +54,7 @@ TEST(BakedMaterials, MaterialsCarryTheMapOnALayerThatIsOff) {
     const Baked baked(file, joined_atlas);
     const Json& materials = baked.file.json["materials"];
     ASSERT_EQ(materials.size(), 5);
-    const Json mark{{"version", 1}, {"encoding", "srgb"}, {"channels", {"Screen", nullptr, nullptr}}};
+    const Json mark{{"version", 1}, {"encoding", "srgb"}, {"channels", {"Screen", "", ""}}};
     EXPECT_EQ(materials[0]["extensions"]["KHR_materials_clearcoat"],
               Json({{"clearcoatFactor", 0}, {"clearcoatTexture", map_anchor(0)}}));
     EXPECT_EQ(materials[0]["extras"]["visibilityMap"], mark);
@@ -145,6 +145,27 @@ TEST(BakedMaterials, BakingABakedFileAddsNothing) {
     EXPECT_EQ(twice.file.json["images"].size(), 1);
     EXPECT_EQ(twice.file.json["textures"].size(), 1);
     EXPECT_EQ(twice.file.json["accessors"].size(), once.file.json["accessors"].size());
+}
+
+// Blender does so to a list that holds null, as the marks of files of before had for unused channels.
+TEST(BakedMaterials, AMapWhoseMarkBecameATextIsReplaced) {
+    QuadFile file;
+    file.json["images"] = {{{"uri", "data:image/png;base64," + png_base64}}};
+    file.json["textures"] = {{{"source", 0}}};
+    file.json["materials"] = {{{"name", "paint"},
+                               {"extensions",
+                                {{"KHR_materials_clearcoat",
+                                  {{"clearcoatFactor", 0}, {"clearcoatTexture", {{"index", 0}, {"texCoord", 1}}}}}}},
+                               {"extras", {{"visibilityMap", "{'version': 1, 'channels': ['Screen', None, None]}"}}}}};
+    file.json["extensionsUsed"] = {"KHR_materials_clearcoat"};
+    file.first_primitive()["material"] = 0;
+    const Baked baked(file, joined_atlas);
+    const Json& material = baked.file.json["materials"][0];
+    EXPECT_FALSE(material["extensions"].contains("KHR_materials_sheen"));
+    EXPECT_EQ(material["extras"]["visibilityMap"]["channels"], Json({"Screen", "", ""}));
+    const auto texture = material["extensions"]["KHR_materials_clearcoat"]["clearcoatTexture"]["index"].get<size_t>();
+    const auto image = baked.file.json["textures"][texture]["source"].get<size_t>();
+    EXPECT_EQ(baked.file.json["images"][image]["name"], "room.visibility");
 }
 
 TEST(BakedMaterials, WithoutAMapOnlyTheUvsAreNew) {

@@ -71,7 +71,7 @@ TEST(BakedPages, AMaterialIsCopiedForEachPageThatItIsOn) {
         EXPECT_EQ(material["name"], "paint");
         EXPECT_EQ(
             material["extras"]["visibilityMap"],
-            Json({{"version", 1}, {"encoding", "srgb"}, {"channels", {"Screen", nullptr, nullptr}}, {"page", page}}));
+            Json({{"version", 1}, {"encoding", "srgb"}, {"channels", {"Screen", "", ""}}, {"page", page}}));
         const Json& use = material["extensions"][clearcoat]["clearcoatTexture"];
         EXPECT_EQ(use["texCoord"], 1);
         const Json& texture = file.json["textures"][use["index"].get<size_t>()];

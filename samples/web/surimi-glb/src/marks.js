@@ -6,6 +6,8 @@ const channelNames = ['R', 'G', 'B'];
 /** extras.visibilityMap of a material's extras where it names channels; null: nothing was baked for the material. */
 export function noteOf(extras) {
   const note = extras?.visibilityMap;
+  if (typeof note === 'string')
+    console.warn('surimi: another tool made a text of a mark, so the map is lost; bake the scene again');
   return Array.isArray(note?.channels) ? note : null;
 }
 
@@ -16,7 +18,7 @@ export function noteOf(extras) {
 export function channelOf(node, names) {
   const mark = node.extras?.monitor;
   if (channelNames.includes(mark)) return channelNames.indexOf(mark);
-  if (mark !== undefined || node.name === undefined) return null;
+  if (mark !== undefined || !node.name) return null; // unused channels have no name either
   for (const channels of names) if (channels.includes(node.name)) return channels.indexOf(node.name);
   return null;
 }

@@ -9,6 +9,8 @@ import { ClampToEdgeWrapping, LinearFilter, LoaderUtils, NoColorSpace, SRGBColor
 export async function takeMap(material, note, parser) {
   const texture = takeLayer(material) ?? (await loadFile(note, parser));
   if (texture === null) return null;
+  texture.generateMipmaps = false; // small levels would mix charts; Blender asks for them
+  texture.minFilter = LinearFilter;
   texture.colorSpace = note.encoding === 'srgb' ? SRGBColorSpace : NoColorSpace;
   texture.needsUpdate = true;
   return texture;
@@ -35,8 +37,6 @@ async function loadFile(note, parser) {
   const texture = await loader.loadAsync(LoaderUtils.resolveURL(note.file, parser.options.path));
   texture.flipY = false;
   texture.channel = note.texCoord ?? 1;
-  texture.generateMipmaps = false;
-  texture.minFilter = LinearFilter;
   texture.wrapS = texture.wrapT = ClampToEdgeWrapping;
   return texture;
 }
