@@ -69,9 +69,8 @@ TEST(BakedPages, AMaterialIsCopiedForEachPageThatItIsOn) {
     for (size_t page = 0; page < 2; ++page) {
         const Json& material = materials[file.primitive(page)["material"].get<size_t>()];
         EXPECT_EQ(material["name"], "paint");
-        EXPECT_EQ(
-            material["extras"]["visibilityMap"],
-            Json({{"version", 1}, {"encoding", "srgb"}, {"channels", {"Screen", "", ""}}, {"page", page}}));
+        EXPECT_EQ(material["extras"]["visibilityMap"],
+                  Json({{"version", 1}, {"encoding", "srgb"}, {"channels", {"Screen", "", ""}}, {"page", page}}));
         const Json& use = material["extensions"][clearcoat]["clearcoatTexture"];
         EXPECT_EQ(use["texCoord"], 1);
         const Json& texture = file.json["textures"][use["index"].get<size_t>()];
