@@ -7,6 +7,7 @@
 #include "baker/export/lobe_tables.h"
 #include "baker/export/ltcgi_curve.h"
 #include "baker/export/templates.h"
+#include "baker/report/text.h"
 #include "baker/write/file.h"
 #include "runtime/base/error.h"
 #include "runtime/image/image_file.h"
@@ -176,10 +177,7 @@ ExportFiles godot_files(const ExportedBake& bake) {
 
 ExportFiles three_files(const ExportedBake& bake) {
     ExportFiles files{copied_file(bake.files.baked_glb)};
-    // A name becomes the text of a script in the page: as JSON, without what would end the script.
-    std::string name = nlohmann::json(bake.files.baked_glb.filename().string())
-                           .dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
-    for (size_t at = 0; (at = name.find('<', at)) != std::string::npos;) name.replace(at, 1, "\\u003c");
+    const std::string name = script_text(bake.files.baked_glb.filename().string());
     files.push_back(text_file("index.html", fill_in(template_text("web/three.html"), {{"glb", name}})));
     files.push_back(text_file("README.md", readme(bake, "web/three.md", {})));
     return files;

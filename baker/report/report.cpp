@@ -141,10 +141,7 @@ void add_scene(const BakeFiles& files, const std::vector<LoadedPage>& pages, int
     report["view"] = view_section(open_view(baked, files, maps, copy.glb_gzip.empty()));
 }
 
-}  // namespace
-
-std::string make_report(const ReportRequest& request) {
-    const BakeFiles files = find_bake(request.bake);
+std::string make_report_of(const BakeFiles& files, const ReportRequest& request) {
     std::vector<LoadedPage> pages = load_pages(files, request);
     const int reduction = (std::max({files.width, files.height, 1}) + largest_picture - 1) / largest_picture;
     Json report{{"manifest", files.manifest},
@@ -168,9 +165,15 @@ std::string make_report(const ReportRequest& request) {
     return make_page(files.name, report);
 }
 
+}  // namespace
+
+std::string make_report(const ReportRequest& request) {
+    return make_report_of(find_bake(request.bake), request);
+}
+
 std::filesystem::path write_report(const ReportRequest& request) {
-    const std::string page = make_report(request);
     const BakeFiles files = find_bake(request.bake);
+    const std::string page = make_report_of(files, request);
     const auto path =
         request.out.empty() ? files.manifest_path.parent_path() / (files.name + ".report.html") : request.out;
     write_file(path, std::span(reinterpret_cast<const uint8_t*>(page.data()), page.size()));

@@ -37,16 +37,6 @@ bool is_texture(const std::string& key, const Json& value) {
     return key.ends_with("Texture") && value.is_object() && value.contains("index");
 }
 
-/// Calls `visit` for every texture index in a material, extensions included.
-template <class Visit>
-void visit_textures(const Json& part, const Visit& visit) {
-    if (!part.is_object()) return;
-    for (const auto& [key, value] : part.items()) {
-        if (is_texture(key, value)) visit(value["index"]);
-        visit_textures(value, visit);
-    }
-}
-
 void erase_textures(Json& part) {
     if (!part.is_object()) return;
     std::vector<std::string> keys;
@@ -87,8 +77,8 @@ std::optional<size_t> texture_bytes(const PlainGltf& gltf) {
     bool is_common = true;
     const Json& textures = list_of(gltf.json, "textures");
     for (const Json& material : list_of(gltf.json, "materials"))
-        visit_textures(material, [&](const Json& index) {
-            const auto t = static_cast<size_t>(index_of({{"i", index}}, "i", textures.size()));
+        for_each_texture_use(material, [&](const Json& use) {
+            const auto t = static_cast<size_t>(index_of(use, "index", textures.size()));
             const int image =
                 t < textures.size() ? index_of(textures[t], "source", list_of(gltf.json, "images").size()) : -1;
             if (image >= 0)
@@ -107,8 +97,8 @@ std::optional<size_t> texture_bytes(const PlainGltf& gltf) {
     return is_common ? std::optional(bytes) : std::nullopt;
 }
 
-/// Gives all materials with the map the same texture in its place.
-void put_placeholder(PlainGltf& gltf, const Scene& baked) {
+/// Gives all materials with the map one white texture in its place: the page has the map already, and hangs it there.
+void put_white_map(PlainGltf& gltf, const Scene& baked) {
     Json& json = gltf.json;
     const Image<glm::u8vec3> white(1, 1, glm::u8vec3(255));
     json["bufferViews"].push_back({{"buffer", 0}});
@@ -172,8 +162,8 @@ std::set<size_t> used_views(const PlainGltf& gltf) {
     const Json& textures = list_of(gltf.json, "textures");
     const Json& images = list_of(gltf.json, "images");
     for (const Json& material : list_of(gltf.json, "materials"))
-        visit_textures(material, [&](const Json& index) {
-            const int t = index_of({{"i", index}}, "i", textures.size());
+        for_each_texture_use(material, [&](const Json& texture) {
+            const int t = index_of(texture, "index", textures.size());
             const int image = t >= 0 ? index_of(textures[static_cast<size_t>(t)], "source", images.size()) : -1;
             if (image >= 0) use(images[static_cast<size_t>(image)]);
         });
@@ -229,7 +219,7 @@ SceneCopy copy_scene(const std::filesystem::path& glb, const Scene& baked) {
             flatten(gltf.json["materials"][m], baked, m);
         erase_coordinates(gltf.json, baked);
     }
-    put_placeholder(gltf, baked);
+    put_white_map(gltf, baked);
     copy.glb_gzip = gzip(pack(gltf));
     copy.bytes = copy.glb_gzip.size();
     if (copy.bytes > most_scene_bytes) copy.glb_gzip.clear();

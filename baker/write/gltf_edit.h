@@ -30,6 +30,19 @@ void erase_extension(Json& object, const std::string& name);
 /// Adds `name` to extensionsUsed, or removes it from extensionsUsed and extensionsRequired.
 void declare_extension(Json& document, const std::string& name, bool is_used);
 
+/// Calls visit(use) for every object that refers to a texture: "...Texture": {"index": ...}, in the core or
+/// in an extension.
+template <class AnyJson, class Visit>
+void for_each_texture_use(AnyJson& value, const Visit& visit) {
+    if (!value.is_object()) return;
+    for (auto item = value.begin(); item != value.end(); ++item) {
+        if (item.key() == "extras") continue;
+        const bool is_use = item.key().ends_with("Texture") && item->is_object() && item->contains("index");
+        if (is_use) visit(*item);
+        for_each_texture_use(*item, visit);
+    }
+}
+
 enum class ViewTarget { none = 0, vertices = 34962, indices = 34963 };
 
 class GltfEdit {

@@ -13,19 +13,6 @@ constexpr const char* sheen = "KHR_materials_sheen";
 constexpr const char* mark = "visibilityMap";
 constexpr const char* transform = "KHR_texture_transform";
 
-/// Calls visit(use) for every object that refers to a texture: "...Texture": {"index": ...}, in the core or
-/// in an extension.
-template <class AnyJson, class Visit>
-void for_each_texture_use(AnyJson& value, const Visit& visit) {
-    if (!value.is_object()) return;
-    for (auto item = value.begin(); item != value.end(); ++item) {
-        if (item.key() == "extras") continue;
-        const bool is_use = item.key().ends_with("Texture") && item->is_object() && item->contains("index");
-        if (is_use) visit(*item);
-        for_each_texture_use(*item, visit);
-    }
-}
-
 /// The set that a texture use reads; KHR_texture_transform has the last word.
 int set_of(const Json& use) {
     constexpr size_t any = 1000;  // far more sets than a vertex can have
