@@ -6,7 +6,7 @@
 #include <cassert>
 
 #include "baker/export/target_files.h"
-#include "baker/report/bake_files.h"
+#include "baker/write/bake_files.h"
 #include "baker/write/file.h"
 #include "runtime/base/error.h"
 #include "runtime/map/map_file.h"

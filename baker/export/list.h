@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "baker/report/bake_files.h"
+#include "baker/write/bake_files.h"
 #include "runtime/base/math.h"
 
 namespace surimi {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "baker/report/bake_files.h"
+#include "baker/write/bake_files.h"
 #include "runtime/map/visibility_map.h"
 
 namespace surimi {

@@ -2,8 +2,8 @@
 // The atlas of a finished bake, from the UVs of its glb.
 #pragma once
 
-#include "baker/report/bake_files.h"
 #include "baker/unwrap/atlas.h"
+#include "baker/write/bake_files.h"
 #include "runtime/scene/scene.h"
 
 namespace surimi {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "baker/report/bake_files.h"
+#include "baker/write/bake_files.h"
 #include "runtime/base/image.h"
 #include "runtime/base/math.h"
 #include "runtime/image/image_file.h"

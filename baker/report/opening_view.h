@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "baker/report/bake_files.h"
+#include "baker/write/bake_files.h"
 #include "runtime/map/visibility_map.h"
 #include "runtime/preview/camera.h"
 #include "runtime/scene/scene.h"

@@ -10,7 +10,6 @@
 
 #include "baker/report/atlas_of_bake.h"
 #include "baker/report/atlas_planes.h"
-#include "baker/report/bake_files.h"
 #include "baker/report/codes.h"
 #include "baker/report/difference.h"
 #include "baker/report/evidence_planes.h"
@@ -19,6 +18,7 @@
 #include "baker/report/scene_copy.h"
 #include "baker/report/settings_text.h"
 #include "baker/report/text.h"
+#include "baker/write/bake_files.h"
 #include "baker/write/file.h"
 #include "runtime/base/error.h"
 #include "runtime/image/image_file.h"

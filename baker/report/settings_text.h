@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "baker/report/bake_files.h"
+#include "baker/write/bake_files.h"
 
 namespace surimi {
 

@@ -13,7 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "baker/post/channel.h"
-#include "baker/write/manifest.h"
+#include "baker/write/bake_files.h"
 #include "runtime/base/error.h"
 #include "runtime/image/image_file.h"
 #include "runtime/map/map_file.h"
@@ -51,15 +51,18 @@ struct Inspection {
 
 /// Whether the file is as the bake left it.
 bool is_whole(Inspection& inspection, const Json& output) {
-    const std::string name = output.at("file");
+    // Only names, as everywhere: a manifest does not make the program read elsewhere.
+    const std::string name = Path(output.at("file").get<std::string>()).filename().string();
     const Path path = inspection.folder / name;
     inspection.result.files.push_back(path);
-    const auto bytes = read_file(path);
-    if (!bytes) {
+    const OutputState state = state_of_output(path, output.at("hash").get<std::string>());
+    if (state == OutputState::missing) {
         inspection.fault(name, "is missing; bake again");
         return false;
     }
-    if (bytes->size() != output.at("bytes").get<size_t>() || content_hash(*bytes) != output.at("hash")) {
+    std::error_code ignored;
+    if (state == OutputState::changed ||
+        std::filesystem::file_size(path, ignored) != output.at("bytes").get<size_t>()) {
         inspection.fault(name, "is not what the bake wrote (other bytes)");
         return false;
     }
@@ -152,7 +155,7 @@ void check_scene(Inspection& inspection, const std::string& name) {
 std::vector<std::string> files_of(const Inspection& inspection, const std::string& role) {
     std::vector<std::string> names;
     for (const Json& output : inspection.manifest.at("outputs"))
-        if (output.at("role") == role) names.push_back(output.at("file"));
+        if (output.at("role") == role) names.push_back(Path(output.at("file").get<std::string>()).filename().string());
     return names;
 }
 
@@ -169,13 +172,7 @@ void check_contents(Inspection& inspection) {
 Path find_manifest(const Path& path) {
     std::error_code ignored;
     if (!std::filesystem::is_directory(path, ignored)) return path;
-    std::vector<Path> found;
-    const std::string ending = ".visibility.json";
-    for (const auto& entry : std::filesystem::directory_iterator(path, ignored)) {
-        const std::string name = entry.path().filename().string();
-        if (name.size() > ending.size() && name.ends_with(ending)) found.push_back(entry.path());
-    }
-    std::sort(found.begin(), found.end());
+    const std::vector<Path> found = manifests_in(path);
     if (found.size() == 1) return found.front();
     throw Error(ErrorKind::usage,
                 found.empty() ? path.string() + ": no NAME.visibility.json there; give the folder that bake wrote to"

@@ -8,11 +8,11 @@
 
 #include <functional>
 
-#include "baker/report/bake_files.h"
 #include "baker/report/codes.h"
 #include "baker/report/difference.h"
 #include "baker/report/opening_view.h"
 #include "baker/report/scene_copy.h"
+#include "baker/write/bake_files.h"
 #include "runtime/base/error.h"
 #include "runtime/base/random.h"
 #include "runtime/image/image_file.h"

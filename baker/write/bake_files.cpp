@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "baker/report/bake_files.h"
+#include "baker/write/bake_files.h"
 
 #include <algorithm>
 #include <optional>
@@ -20,14 +20,11 @@ constexpr int known_version = 1;
 std::filesystem::path find_manifest(const std::filesystem::path& place) {
     std::error_code ignored;
     if (!std::filesystem::is_directory(place, ignored)) return place;
-    std::vector<std::filesystem::path> found;
-    for (const auto& entry : std::filesystem::directory_iterator(place, ignored))
-        if (entry.path().filename().string().ends_with(manifest_ending)) found.push_back(entry.path());
+    const std::vector<std::filesystem::path> found = manifests_in(place);
     if (found.empty())
         throw Error(ErrorKind::scene, place.string() + ": no bake is in this folder (no NAME" +
                                           std::string(manifest_ending) + "); make one with: surimi bake SCENE -o " +
                                           place.string());
-    std::sort(found.begin(), found.end());
     if (found.size() == 1) return found.front();
     std::string names;
     for (const auto& path : found) names += " " + path.string();
@@ -69,12 +66,12 @@ void find_outputs(BakeFiles& bake) {
         // Only names: a manifest does not make the program read elsewhere.
         const auto file = std::filesystem::path(output.at("file").get<std::string>()).filename();
         const auto path = bake.manifest_path.parent_path() / file;
-        const auto bytes = read_file(path);
-        if (!bytes) {
+        const OutputState state = state_of_output(path, output.at("hash").get<std::string>());
+        if (state == OutputState::missing) {
             bake.complaints.push_back(file.string() + " is not beside the manifest; what it shows is left out");
             continue;
         }
-        if (content_hash(*bytes) != output.at("hash").get<std::string>())
+        if (state == OutputState::changed)
             bake.complaints.push_back(file.string() +
                                       " is not the file that the bake wrote: it was changed afterwards, or belongs to "
                                       "another bake");
@@ -83,6 +80,21 @@ void find_outputs(BakeFiles& bake) {
 }
 
 }  // namespace
+
+std::vector<std::filesystem::path> manifests_in(const std::filesystem::path& folder) {
+    std::error_code ignored;
+    std::vector<std::filesystem::path> found;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
+        if (entry.path().filename().string().ends_with(manifest_ending)) found.push_back(entry.path());
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
+OutputState state_of_output(const std::filesystem::path& path, const std::string& hash) {
+    const auto bytes = read_file(path);
+    if (!bytes) return OutputState::missing;
+    return content_hash(*bytes) == hash ? OutputState::whole : OutputState::changed;
+}
 
 BakeFiles find_bake(const std::filesystem::path& folder_or_manifest) {
     BakeFiles bake;

@@ -35,6 +35,14 @@ struct BakeFiles {
     std::vector<std::string> complaints;  ///< files that are not there, or are not those that the bake wrote
 };
 
+/// Manifests of bakes in a folder, by name.
+std::vector<std::filesystem::path> manifests_in(const std::filesystem::path& folder);
+
+enum class OutputState { whole, changed, missing };
+
+/// Whether a file is the one with this content_hash().
+OutputState state_of_output(const std::filesystem::path& path, const std::string& hash);
+
 /// Finds the bake in a folder, or the one of a manifest. Files that are missing are complaints, no errors. Throws
 /// Error(scene) when there is no manifest, or none that this program understands, and Error(usage) when the folder has
 /// several.
